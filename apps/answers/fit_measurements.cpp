@@ -32,6 +32,8 @@ std::vector<std::pair<std::string, std::string>> labels_of(const hydro::io::CsvT
 plot::Series band_outline(const std::string& name, const std::vector<double>& t, const std::vector<double>& half,
                           bool dashed) {
   plot::Series out{name, t, half, true, false, dashed};
+  out.x.push_back(t.back());
+  out.y.push_back(std::numeric_limits<double>::quiet_NaN());  // the upper edge does not go on to the lower one
   for (std::size_t i = t.size(); i-- > 0;) {
     out.x.push_back(t[i]);
     out.y.push_back(-half[i]);

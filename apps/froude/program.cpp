@@ -6,6 +6,7 @@
 
 #include "froude/bem_options.hpp"
 #include "froude/command_line.hpp"
+#include "froude/described.hpp"
 #include "froude/experiment_options.hpp"
 #include "froude/kept_fits.hpp"
 #include "froude/sweep_options.hpp"
@@ -527,6 +528,7 @@ void describe(CLI::App& app, Request& request) {
   add_cost(app, request);
   add_sweep(app, request, sweep_scenes);
   add_other_programs(app);
+  add_described(app, request);
 }
 
 /// A command that is a program of its own, with what follows it and what stands before it: only flags do, and they

@@ -50,8 +50,10 @@ bool has_page() { return !bundled_page().empty(); }
 
 std::string page_with(const std::string& title, const Json& data) {
   if (!has_page())
-    throw hydro::InputError("this build of froude has no reports", {},
-                            "run `scripts/setup report`, then configure and build again: npm brings what draws them");
+    throw hydro::InputError(
+        "this build of froude has no reports", {},
+        "run `scripts/setup report`, configure with -DFROUDE_REPORTS=ON and build again: npm brings what "
+        "draws them");
   constexpr std::string_view title_mark = "froude-title", data_mark = "froude-data";
   const std::string_view page = bundled_page();
   const std::size_t at_title = page.find(title_mark), at_data = page.find(data_mark);

@@ -25,6 +25,14 @@ std::size_t end_of_variance(const std::vector<double>& density) {
   return density.size();
 }
 
+/// True where more than a fifth of the variance lies below 1.5 divisions: periods that hardly fit into a segment.
+bool is_unresolved(const std::vector<double>& density) {
+  constexpr double share_too_slow = 0.2;
+  double sum = 0;
+  for (const double s : density) sum += s;
+  return density.size() < 3 || density[0] + density[1] > share_too_slow * sum;
+}
+
 struct NamedDensity {
   std::string name;
   std::vector<double> density;
@@ -54,12 +62,14 @@ Json spectra_of(const RunResult& run, std::size_t first) {
     std::vector<NamedDensity> all;
     std::vector<double> frequency;
     double dof = 0, resolution = 0;
+    Json unresolved = Json::array();
     for (const Signal& s : run.signals) {
       const auto values = std::span(s.values).subspan(first);
       const bool finite = std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
       if (is_of_energy(s.name) || !finite) continue;
       hs::WelchSpectrum w = hs::welch(values, step, options);
       if (w.variance <= 1e-24 * w.mean * w.mean) continue;  // rounding of a constant is no motion
+      if (is_unresolved(w.spectrum.density)) unresolved.push_back(s.name);
       frequency = std::move(w.spectrum.frequency_hz);
       dof = w.dof, resolution = w.resolution_hz;
       all.push_back({s.name, std::move(w.spectrum.density)});
@@ -71,6 +81,7 @@ Json spectra_of(const RunResult& run, std::size_t first) {
                 {"high", band.upper},
                 {"confidence", confidence},
                 {"dof", dof},
+                {"unresolved", unresolved},
                 {"segment", static_cast<double>(options.segment) * step},
                 {"resolution", resolution}});
     return out;

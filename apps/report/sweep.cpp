@@ -29,7 +29,7 @@ Json pictures_told(const sweep::Study& study) {
 }  // namespace
 
 Json sweep_contents(const std::filesystem::path& folder) {
-  sweep::Store store(folder);
+  const sweep::Store store(folder);
   const sweep::Identity& of = store.identity();
   const auto rows = store.rows();
   const sweep::Study study = sweep::parse_study(of.study, folder / of.name);
@@ -63,7 +63,6 @@ Json sweep_contents(const std::filesystem::path& folder) {
   }
   out.update({{"axes", axes}, {"outputs", outputs}, {"number", number}, {"state", state}, {"why", why}});
   out["pictures"] = pictures_told(study);
-  store.close(rows.size() == of.cases);
   return out;
 }
 

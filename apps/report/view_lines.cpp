@@ -1,5 +1,6 @@
 // Lines, catenaries and connectors of an animation.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 #include <functional>
@@ -59,21 +60,26 @@ Vector3d node_place(const scene::Scene& scene, const Recorded& recorded, const F
 
 void add_lines(const scene::Scene& scene, const Recorded& recorded, const Frames& frames,
                const std::vector<BodyMotion>& bodies, std::vector<DrawnLine>& out, std::vector<std::string>& notes) {
+  std::vector<std::string> sparse, to_keep;
   for (const scene::Line& line : scene.lines) {
     int known = 0;
     for (int i = 0; i <= line.last_node(); ++i)
       known += node_place(scene, recorded, frames, bodies, line, i, 0).allFinite() ? 1 : 0;
-    if (known <= line.last_node())
-      notes.push_back(
-          fmt::format("Of {} the result keeps the places of {} of {} nodes; only pieces between known "
-                      "neighbours are drawn. [ask] run = {{ of = [\"{}.node*\"] }} would keep all.",
-                      line.name, known, line.last_node() + 1, line.name));
+    if (known <= line.last_node()) {
+      sparse.push_back(fmt::format("{} of {} nodes of {}", known, line.last_node() + 1, line.name));
+      to_keep.push_back(fmt::format("\"{}.node*\"", line.name));
+    }
     if (known == 0) continue;
     out.push_back({line.name, "line", static_cast<std::size_t>(line.last_node()) + 1,
                    [&, &line = line](std::size_t point, std::size_t frame) {
                      return node_place(scene, recorded, frames, bodies, line, static_cast<int>(point), frame);
                    }});
   }
+  if (!sparse.empty())
+    notes.push_back(
+        fmt::format("The result keeps the places of {}; only pieces between known neighbours are drawn. "
+                    "[ask] run = {{ of = [{}] }} would keep all.",
+                    fmt::join(sparse, ", "), fmt::join(to_keep, ", ")));
 }
 
 /// Along the line from the anchor, (x, z) from it, at the unstretched length s; (D60), (D61).

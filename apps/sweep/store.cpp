@@ -194,7 +194,9 @@ Store::Store(const fs::path& folder, const Identity& identity)
     throw InputError(fmt::format("cannot make the folder \"{}\": {}", folder.string(), failed.message()), {},
                      "name another one with -o");
   lock_ = std::make_unique<Lock>(folder);
-  open();
+  open(SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE);
+  // A commit is on the disk when it returns, and a reader sees the last one while the next is written.
+  execute("PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL");
   Statement known(folder_, database_.get(), "SELECT count(*) FROM sqlite_master WHERE name = 'study'");
   known.step();
   if (known.number(0) == 0) {
@@ -210,21 +212,19 @@ Store::Store(const fs::path& folder) : folder_(folder), database_(nullptr, &sqli
   if (!fs::is_regular_file(database_of(folder), unknown))
     throw InputError(fmt::format("there is no sweep in \"{}\"", folder.string()), {},
                      "name a folder that `froude sweep` has written");
-  lock_ = std::make_unique<Lock>(folder);
-  open();
+  open(SQLITE_OPEN_READONLY);
+  execute("BEGIN");  // columns and rows of one moment
   read();
 }
 
 Store::~Store() = default;
 
-void Store::open() {
+void Store::open(int flags) {
   sqlite3* database = nullptr;
-  const int code = sqlite3_open_v2(database_of(folder_).c_str(), &database,
-                                   SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE | SQLITE_OPEN_FULLMUTEX, nullptr);
+  const int code = sqlite3_open_v2(database_of(folder_).c_str(), &database, flags | SQLITE_OPEN_FULLMUTEX, nullptr);
   database_.reset(database);
   if (code != SQLITE_OK) refuse(folder_, database, code);
-  // A commit is on the disk when it returns, and a reader sees the last one while the next is written.
-  execute("PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL; PRAGMA busy_timeout = 10000");
+  execute("PRAGMA busy_timeout = 10000");
 }
 
 void Store::execute(const std::string& sql) const {

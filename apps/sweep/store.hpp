@@ -45,7 +45,8 @@ class Store {
   /// Opens the sweep of a folder, which is made if there is none. \throws hydro::InputError where another process has
   /// it, where it is of another study, naming both and the first difference, or where nothing can be written
   Store(const std::filesystem::path& folder, const Identity& identity);
-  /// Opens one that is there. \throws hydro::InputError as the other
+  /// Opens one that is there to read it: nothing of it is changed, in a folder that is read-only as well. Of a sweep
+  /// that is at work it has what was over when it was opened. \throws hydro::InputError where there is none
   explicit Store(const std::filesystem::path& folder);
   ~Store();
   Store(const Store&) = delete;
@@ -70,14 +71,14 @@ class Store {
 
  private:
   class Lock;
-  void open();
+  void open(int flags);
   void create();
   void read();
   void execute(const std::string& sql) const;
   void set(const std::string& key, const std::string& value) const;
 
   std::filesystem::path folder_;
-  std::unique_ptr<Lock> lock_;
+  std::unique_ptr<Lock> lock_;  ///< of what is written
   std::unique_ptr<sqlite3, int (*)(sqlite3*)> database_;
   Identity identity_;
   std::vector<Column> columns_;

@@ -27,7 +27,7 @@ def read(file: FileName, set: Optional[Mapping[str, Value]] = None, *,
     Parameters
     ----------
     file : path
-        TOML, as docs/guide/motion.md and docs/guide/fits.md describe it.
+        TOML, as docs/guide/motion.md and docs/guide/fit.md describe it.
     set : dict, optional
         Values by their paths, written over those of the file: numbers in the units written there, texts with theirs:
         ``{"waves.height": 2.0, "waves.seed": 7, "body.buoy.mass": "3 t"}``. Of several tables with one heading the
@@ -255,7 +255,7 @@ def fit(scene: AnyScene) -> _froude.Fit:
     Parameters
     ----------
     scene : Scene or path
-        A scene with a ``[model]``, as docs/guide/fits.md describes it.
+        A scene with a ``[model]``, as docs/guide/fit.md describes it.
 
     Returns
     -------
@@ -279,7 +279,7 @@ def sweep(study: FileName, folder: Optional[FileName] = None, *, threads: Option
     Parameters
     ----------
     study : path
-        TOML, as docs/guide/sweeps.md describes it.
+        TOML, as docs/guide/sweep.md describes it.
     folder : path, optional
         Where database, table and pictures are kept; the study's name with ``.sweep`` in the working folder, as the
         program does, unless it is given. Cases that are there already are not answered again.

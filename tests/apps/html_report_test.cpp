@@ -69,6 +69,19 @@ TEST(ReportSpectra, ReachBeyondTheLineOfASineAndLeaveOutEnergy) {
   EXPECT_LT(spectra["end"].get<double>(), 0.5);
 }
 
+// 40 s in segments of 5 s: of a period of 10 s a segment holds the half, of one of 1 s it holds five.
+TEST(ReportSpectra, NameWhatTheirSegmentsAreTooShortFor) {
+  froude::RunResult run;
+  froude::Signal slow{"m.surge", "m", "", {}}, fast{"m.heave", "m", "", {}};
+  for (int i = 0; i < 800; ++i) {
+    run.time.push_back(0.05 * i);
+    slow.values.push_back(std::sin(2 * std::numbers::pi * run.time.back() / 10));
+    fast.values.push_back(std::sin(2 * std::numbers::pi * run.time.back()));
+  }
+  run.signals = {slow, fast};
+  EXPECT_EQ(html::spectra_of(run, 0)["unresolved"], html::Json::array({"m.surge"}));
+}
+
 TEST(ReportSpectra, OfTooShortARecordSayWhy) {
   froude::RunResult run;
   run.time = {0, 1, 2};

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <deque>
 #include <fstream>
+#include <map>
 #include <mutex>
 #include <numbers>
 #include <set>
@@ -405,6 +406,33 @@ TEST_F(Sweeps, OfAnotherStudyAreRefusedWithTheFirstDifference) {
   const Store held(folder() / "sweep", identity(same, again));
   EXPECT_THAT([&] { Store(folder() / "sweep", identity(same, again)); },
               ThrowsMessage<hydro::InputError>(HasSubstr("another sweep is at work")));
+}
+
+TEST_F(Sweeps, ThatAreReadStayAsTheyAre) {
+  const std::string text = table("sweep", {.threads = 1});
+  const auto whole = [&] {
+    std::map<std::string, std::string> out;
+    for (const auto& entry : fs::recursive_directory_iterator(folder() / "sweep"))
+      if (entry.is_regular_file())
+        out[entry.path().string()] =
+            hydro::io::read_text(entry.path()) + std::to_string(entry.last_write_time().time_since_epoch().count());
+    return out;
+  };
+  const auto before = whole();
+  {
+    Store read(folder() / "sweep");
+    EXPECT_EQ(read.rows().size(), 6u);
+    EXPECT_THROW(read.set_columns({}), hydro::InputError);
+  }
+  EXPECT_EQ(whole(), before);
+}
+
+TEST_F(Sweeps, ThatAreHeldByAnotherTellWhatIsOver) {
+  const Study of = study();
+  const Cases cases(of, oscillator, {});
+  Store store(folder() / "sweep", identity(of, cases));
+  carry_out(of, cases, store, {.threads = 1, .part = 1, .parts = 2}, {});
+  EXPECT_EQ(Store(folder() / "sweep").rows().size(), 3u);
 }
 
 TEST_F(Sweeps, GoOnAfterACaseThatFails) {

@@ -5,8 +5,14 @@ import { pathToFileURL } from 'node:url';
 
 export const CHROMIUM = '/usr/bin/chromium';
 
-/** @param {string} packages where npm has put the packages of the lock file @param {string[]} more arguments of Chromium */
-export async function openBrowser(packages, more = ['--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader']) {
+/**
+ * @param {string} packages where npm has put the packages of the lock file
+ * @param {string[]} more arguments of Chromium
+ */
+export async function openBrowser(
+  packages,
+  more = ['--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'],
+) {
   const { chromium } = createRequire(join(packages, 'package.json'))('playwright-core');
   return chromium.launch({ executablePath: CHROMIUM, args: ['--no-sandbox', '--disable-dev-shm-usage', ...more] });
 }
@@ -17,12 +23,19 @@ export async function openBrowser(packages, more = ['--use-gl=angle', '--use-ang
  */
 export async function openReport(browser, file, size = { width: 1280, height: 900 }, more = {}) {
   const context = await browser.newContext({ viewport: size, ...more });
-  const page = await context.newPage(), wrong = [];
-  page.on('console', (message) => { if (message.type() === 'error') wrong.push(`console: ${message.text()}`); });
+  const page = await context.newPage(),
+    wrong = [];
+  page.on('console', (message) => {
+    if (message.type() === 'error') wrong.push(`console: ${message.text()}`);
+  });
   page.on('pageerror', (error) => wrong.push(`exception: ${error.message}`));
-  page.on('request', (request) => { if (!/^(file|data|blob):/.test(request.url())) wrong.push(`request: ${request.url()}`); });
+  page.on('request', (request) => {
+    if (!/^(file|data|blob):/.test(request.url())) wrong.push(`request: ${request.url()}`);
+  });
   await page.goto(pathToFileURL(file).href);
-  await page.waitForSelector('html[data-ready]', { timeout: 20000 }).catch(() => { throw new Error(`the page is not ready: ${wrong}`); });
+  await page.waitForSelector('html[data-ready]', { timeout: 20000 }).catch(() => {
+    throw new Error(`the page is not ready: ${wrong}`);
+  });
   return { page, wrong };
 }
 
@@ -37,7 +50,11 @@ export function colouredPixels(canvas) {
     const { data } = pen.getImageData(0, 0, copy.width, copy.height);
     let count = 0;
     for (let i = 0; i < data.length; i += 4)
-      if (data[i + 3] > 40 && Math.max(data[i], data[i + 1], data[i + 2]) - Math.min(data[i], data[i + 1], data[i + 2]) > 40) ++count;
+      if (
+        data[i + 3] > 40 &&
+        Math.max(data[i], data[i + 1], data[i + 2]) - Math.min(data[i], data[i + 1], data[i + 2]) > 40
+      )
+        ++count;
     return count;
   });
 }

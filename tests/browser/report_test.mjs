@@ -7,6 +7,7 @@ import { existsSync, mkdtempSync, readFileSync, rmSync, statSync, writeFileSync 
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { test } from 'node:test';
+import { pathToFileURL } from 'node:url';
 import { CHROMIUM, colouredPixels, openBrowser, openReport } from './browser.mjs';
 
 const [froude, source, packages] = process.argv.slice(2);
@@ -17,7 +18,8 @@ if (!existsSync(CHROMIUM)) {
 
 const folder = mkdtempSync(join(tmpdir(), 'froude_browser_'));
 const file = (name) => join(folder, name);
-const run = (...words) => execFileSync(froude, words, { cwd: folder, encoding: 'utf8', stdio: ['ignore', 'pipe', 'pipe'] });
+const run = (...words) =>
+  execFileSync(froude, words, { cwd: folder, encoding: 'utf8', stdio: ['ignore', 'pipe', 'pipe'] });
 const report = (name, ...words) => {
   run('report', ...words, '-o', file(name));
   return file(name);
@@ -25,7 +27,10 @@ const report = (name, ...words) => {
 process.on('exit', () => rmSync(folder, { recursive: true, force: true }));
 
 const hostile = readFileSync(join(source, 'examples/moored.toml'), 'utf8')
-  .replace('title = "A module on four chains"', 'title = "</script><script>document.title = \'taken\'</script><b id=taken>"')
+  .replace(
+    'title = "A module on four chains"',
+    'title = "</script><script>document.title = \'taken\'</script><b id=taken>"',
+  )
   .replace('data/pontoon1.nc', join(source, 'examples/data/pontoon1.nc'));
 writeFileSync(file('hostile.toml'), hostile);
 run('run', file('hostile.toml'), '-o', 'hostile.h5');
@@ -42,7 +47,8 @@ async function looking(html, look, ...more) {
 }
 
 const moored = () => report('moored.html', 'moored.h5', '--scene-folder', join(source, 'examples'));
-const figureNamed = (page, name) => page.locator('figure', { has: page.locator('figcaption .name', { hasText: new RegExp(`^${name}$`) }) }).first();
+const figureNamed = (page, name) =>
+  page.locator('figure', { has: page.locator('figcaption .name', { hasText: new RegExp(`^${name}$`) }) }).first();
 const rangeOf = async (figure) => (await figure.locator('.plot').getAttribute('data-x')).split(' ').map(Number);
 
 /** From a quarter to three quarters of a figure. */
@@ -59,11 +65,12 @@ async function dragAcross(page, figure) {
 
 test('a run has curves that zoom together and follow the units', async () => {
   await looking(moored(), async (page) => {
-    const heave = figureNamed(page, 'Heave'), surge = figureNamed(page, 'Surge');
+    const heave = figureNamed(page, 'Heave'),
+      surge = figureNamed(page, 'Surge');
     await surge.scrollIntoViewIfNeeded();
     await heave.scrollIntoViewIfNeeded();
     await heave.locator('canvas').waitFor();
-    assert.ok(await colouredPixels(heave.locator('canvas')) > 300);
+    assert.ok((await colouredPixels(heave.locator('canvas'))) > 300);
     assert.deepEqual(await rangeOf(heave), [0, 40]);
     await dragAcross(page, heave);
     const [low, high] = await rangeOf(heave);
@@ -106,9 +113,10 @@ test('the animation plays, is moved, and turns by the keyboard', async () => {
   await looking(moored(), async (page) => {
     const space = page.locator('.space[data-by=webgl]');
     await space.waitFor();
-    const time = page.locator('output.time'), canvas = space.locator('canvas');
+    const time = page.locator('output.time'),
+      canvas = space.locator('canvas');
     const picture = () => canvas.evaluate((c) => c.toDataURL());
-    assert.ok(await colouredPixels(canvas) > 2000);
+    assert.ok((await colouredPixels(canvas)) > 2000);
     const first = await picture();
     await page.getByRole('button', { name: 'Play' }).click();
     await page.waitForFunction(() => parseFloat(document.querySelector('output.time').textContent.slice(4)) > 0.5);
@@ -132,10 +140,13 @@ test('without WebGL the side view plays', async () => {
   await page.locator('.space[data-by=canvas]').waitFor();
   const canvas = page.locator('.space canvas');
   const first = await canvas.evaluate((c) => c.toDataURL());
-  assert.ok(await colouredPixels(canvas) > 1000);
+  assert.ok((await colouredPixels(canvas)) > 1000);
   await page.getByLabel('Time, s').fill('13');
   assert.notEqual(await canvas.evaluate((c) => c.toDataURL()), first);
-  assert.deepEqual(wrong.filter((line) => !/WebGL/.test(line)), []);
+  assert.deepEqual(
+    wrong.filter((line) => !/WebGL/.test(line)),
+    [],
+  );
   await plain.close();
 });
 
@@ -152,7 +163,7 @@ test('responses show amplitude and phase of several headings', async () => {
     const heave = figureNamed(page, 'Heave: amplitude');
     await heave.scrollIntoViewIfNeeded();
     await heave.locator('canvas').waitFor();
-    assert.ok(await colouredPixels(heave.locator('canvas')) > 300);
+    assert.ok((await colouredPixels(heave.locator('canvas'))) > 300);
     const boxes = heave.locator('.legend input');
     assert.equal(await boxes.count(), 13);
     assert.equal(await heave.locator('.legend input:checked').count(), 6);
@@ -162,6 +173,8 @@ test('responses show amplitude and phase of several headings', async () => {
     await boxes.nth(8).click();
     assert.equal(await heave.locator('.legend input:checked').count(), 6);
     assert.equal(await figureNamed(page, 'Heave: phase').count(), 1);
+    // Roll in head seas is 1e-12 of that in beam seas.
+    assert.match(await figureNamed(page, 'Roll: phase').textContent(), /rounding, whose phase is not drawn/);
     assert.match(await heave.locator('.plot').getAttribute('data-y'), /\[m\/m\]/);
   });
 });
@@ -172,32 +185,46 @@ test('two runs lie over each other, and a table tells their difference', async (
     await both.scrollIntoViewIfNeeded();
     assert.equal(await both.locator('.legend input:checked').count(), 2);
     const row = page.locator('#comparison table tr', { hasText: 'module.heave' });
-    assert.equal(await row.locator('td').nth(8 - 1).textContent(), '0', 'the same run differs by nothing');
+    assert.equal(
+      await row
+        .locator('td')
+        .nth(8 - 1)
+        .textContent(),
+      '0',
+      'the same run differs by nothing',
+    );
   });
 });
 
 test('a fit and a table have their figures', async () => {
   const fit = report('fit.html', join(source, 'examples/fit/oscillation.toml'));
   await looking(fit, async (page) => {
-    assert.match(await page.locator('table', { hasText: 'Coefficients' }).first().textContent(), /1\.218/);
-    assert.ok(await colouredPixels(page.locator('canvas.plane').first()) > 200);
+    assert.match(
+      await page.locator('table', { hasText: 'Coefficients' }).first().textContent(),
+      /1\.2185.*1\.1769 to 1\.2602/,
+    );
+    assert.ok((await colouredPixels(page.locator('canvas.plane').first())) > 200);
   });
   run('psd', 'moored.h5', '--signal', 'module.heave', '-o', 'psd.csv');
   await looking(report('psd.html', 'psd.csv'), async (page) => {
     await page.locator('.plot canvas').first().waitFor();
-    assert.ok(await colouredPixels(page.locator('.plot canvas').first()) > 300);
+    assert.ok((await colouredPixels(page.locator('.plot canvas').first())) > 300);
   });
 });
 
 test('a sweep is a map that tells its values', async () => {
-  writeFileSync(file('study.toml'), `schema = 1\ntitle = "Map"\nscene = "${join(source, 'examples/headings.toml')}"\n[[axis]]\nname = "mass"\n` +
-    'key = "body.float.mass"\nvalues = ["1017.9 t", "1000 t"]\n[[axis]]\nname = "k"\nkey = "mooring.stiffness.surge"\nvalues = ["60 kN/m", "80 kN/m", "90 kN/m"]\n' +
-    '[[output]]\nkind = "rao"\nof = "float.pitch"\nstatistic = "peak"\n');
+  writeFileSync(
+    file('study.toml'),
+    `schema = 1\ntitle = "Map"\nscene = "${join(source, 'examples/headings.toml')}"\n[[axis]]\nname = "mass"\n` +
+      'key = "body.float.mass"\nvalues = ["1017.9 t", "1000 t"]\n' +
+      '[[axis]]\nname = "k"\nkey = "mooring.stiffness.surge"\nvalues = ["60 kN/m", "80 kN/m", "90 kN/m"]\n' +
+      '[[output]]\nkind = "rao"\nof = "float.pitch"\nstatistic = "peak"\n',
+  );
   run('sweep', 'study.toml', '-o', 'cases');
   await looking(report('sweep.html', 'cases'), async (page) => {
     const map = page.locator('canvas.plane').first();
     await map.waitFor();
-    assert.ok(await colouredPixels(map) > 5000);
+    assert.ok((await colouredPixels(map)) > 5000);
     const box = await map.boundingBox();
     await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
     assert.match(await page.locator('.readout').first().textContent(), /mass .*k .*:/);
@@ -206,17 +233,75 @@ test('a sweep is a map that tells its values', async () => {
 });
 
 test('nothing is wider than a telephone, and all controls are reached by the keyboard', async () => {
-  await looking(moored(), async (page) => {
-    const [wide, window] = await page.evaluate(() => [document.documentElement.scrollWidth, innerWidth]);
-    assert.ok(wide <= window, `${wide} px in a window of ${window} px`);
-    const reached = new Set();
-    for (let i = 0; i < 14; ++i) {
-      await page.keyboard.press('Tab');
-      reached.add(await page.evaluate(() => `${document.activeElement.tagName} ${document.activeElement.getAttribute('aria-label') ?? ''}`.trim()));
-    }
-    for (const control of ['SELECT', 'BUTTON Play', 'INPUT Time, s'])
-      assert.ok(reached.has(control), `${control} is reached: ${[...reached]}`);
-  }, { width: 400, height: 800 });
+  await looking(
+    moored(),
+    async (page) => {
+      const [wide, window] = await page.evaluate(() => [document.documentElement.scrollWidth, innerWidth]);
+      assert.ok(wide <= window, `${wide} px in a window of ${window} px`);
+      const reached = new Set();
+      for (let i = 0; i < 14; ++i) {
+        await page.keyboard.press('Tab');
+        reached.add(
+          await page.evaluate(() =>
+            `${document.activeElement.tagName} ${document.activeElement.getAttribute('aria-label') ?? ''}`.trim(),
+          ),
+        );
+      }
+      for (const control of ['SELECT', 'BUTTON Play', 'INPUT Time, s'])
+        assert.ok(reached.has(control), `${control} is reached: ${[...reached]}`);
+    },
+    { width: 400, height: 800 },
+  );
+});
+
+test('a page of paper has every figure whole, and the notes', async () => {
+  await looking(
+    moored(),
+    async (page) => {
+      await page.emulateMedia({ media: 'print' });
+      await page.evaluate(() => dispatchEvent(new Event('beforeprint')));
+      const drawn = await page.evaluate(() =>
+        [...document.querySelectorAll('figure')].map((figure) => {
+          const canvas = figure.querySelector('canvas');
+          const box = canvas?.getBoundingClientRect();
+          return {
+            name: figure.querySelector('.name').textContent,
+            inside: Boolean(box) && box.width > 100 && box.right <= figure.getBoundingClientRect().right + 0.5,
+            // Boxes of print are whole pixels: of 200 one is half a per cent.
+            squeezed: box ? Math.abs(box.width / box.height / (canvas.width / canvas.height) - 1) > 0.01 : true,
+          };
+        }),
+      );
+      assert.ok(drawn.length > 10);
+      assert.deepEqual(
+        drawn.filter((f) => !f.inside || f.squeezed),
+        [],
+      );
+      assert.equal(await page.locator('details', { hasText: /^Notes/ }).getAttribute('open'), '');
+      assert.equal(
+        await page.locator('.legend label:visible', { has: page.locator('input:not(:checked)') }).count(),
+        0,
+      );
+    },
+    { width: 700, height: 900 },
+  );
+});
+
+test('curves are there within a second', async () => {
+  const html = moored();
+  const context = await browser.newContext({ viewport: { width: 1280, height: 900 } });
+  const page = await context.newPage();
+  await page.addInitScript(() => {
+    new MutationObserver(() => {
+      if (document.querySelector('.u-wrap canvas')) window.drawn ??= performance.now();
+    }).observe(document, { subtree: true, childList: true });
+  });
+  await page.goto(pathToFileURL(html).href);
+  await page.waitForFunction(() => window.drawn);
+  const ms = await page.evaluate(() => window.drawn);
+  // 1 s is promised, and 0.4 s is seen; a machine that is at work with other things may take longer.
+  assert.ok(ms < 3000, `${ms} ms`);
+  await context.close();
 });
 
 test('a dark page has light ink, and figures can be saved', async () => {

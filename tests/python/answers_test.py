@@ -11,6 +11,22 @@ from conftest import program, table
 # A CSV has 17 digits, and a unit that is divided out and put in again: rounding of the last.
 SAME = dict(rtol=1e-14, atol=0)
 
+# A mass on a spring in no water, let go from 0.1 m: omega = sqrt(k/m) = 2 rad/s.
+SPRING = """schema = 1
+[water]
+density = "1000 kg/m^3"
+depth = "20 m"
+[[body]]
+name = "m"
+mass = "2 kg"
+free = ["surge"]
+initial = { surge = "0.1 m" }
+[[mooring]]
+on = "m"
+kind = "linear"
+stiffness = { surge = "8 N/m" }
+"""
+
 
 def test_modes(examples, tmp_path):
     program("modes", examples / "modes.toml", "-o", tmp_path / "m.h5", "--csv", tmp_path / "m.csv")
@@ -68,21 +84,7 @@ def test_a_psd_of_a_run_is_that_of_its_file(examples, tmp_path):
 
 
 def test_a_sweep_is_kept_and_goes_on(tmp_path):
-    (tmp_path / "scene.toml").write_text("""schema = 1
-[water]
-density = "1000 kg/m^3"
-depth = "20 m"
-[[body]]
-name = "m"
-mass = "2 kg"
-free = ["surge"]
-[[mooring]]
-on = "m"
-kind = "linear"
-stiffness = { surge = "8 N/m" }
-[ask]
-modes = {}
-""")
+    (tmp_path / "scene.toml").write_text(SPRING + "[ask]\nmodes = {}\n")
     (tmp_path / "study.toml").write_text("""schema = 1
 scene = "scene.toml"
 [[axis]]
@@ -157,3 +159,29 @@ def test_a_scene_of_a_text_finds_its_files(examples):
     text = (examples / "moored.toml").read_text()
     rao = froude.rao(froude.read_text(text, folder=examples))
     np.testing.assert_array_equal(rao["module.heave"], froude.rao(examples / "moored.toml")["module.heave"])
+
+
+def test_cost_has_the_error_that_is_known_of_a_spring(tmp_path):
+    text = SPRING + """[ask]
+run = { duration = "10 s", every = "0.05 s", of = ["m.surge"] }
+[solve]
+step = "0.025 s"
+"""
+    cost = froude.cost(froude.read_text(text, tmp_path), tolerance=1e-2, repeat_for=0)
+    (answer,) = cost.answers
+    assert (answer.ask, answer.measure) == ("run", "rms")
+    steps = {rung.setting: rung.error["rms"][0] for rung in answer.rungs if rung.approximation == "step"}
+    assert [rung.setting for rung in answer.rungs if rung.as_scene] == ["0.025 s"]
+    # The midpoint rule turns by (omega h)^2/12 too little a radian: at the time t cos(omega t) is late by omega^3 h^2 t/12,
+    # and of these the rms over T is T/sqrt(3). T has 3.2 periods, no whole number of them: a tenth.
+    omega, T = 2.0, 10.0
+    for setting, error in steps.items():
+        h = float(setting.split()[0])
+        assert error == pytest.approx(omega**3 * h**2 / 12 * T / math.sqrt(3), rel=0.1)
+    chosen = answer.rungs[answer.chosen]
+    assert chosen.error["rms"][0] <= 1e-2 and chosen.on_front
+    assert froude.run(froude.read_text(cost.scene, tmp_path)).stopped == ""
+    with pytest.raises(froude.InputError, match="measures are: rms"):
+        froude.cost(froude.read_text(text, tmp_path), measure="rmse")
+    with pytest.raises(froude.InputError, match="was changed"):
+        froude.cost(froude.read_text(text, tmp_path).with_values({"body.m.mass": 3.0}))

@@ -1,5 +1,5 @@
-// node bundle.mjs PACKAGES PAGE: makes the page of reports of src/, with the packages of the lock file that npm has put
-// into the folder PACKAGES. The page is one file: script and style stand in it, and the licences of what it brings.
+// node bundle.mjs PACKAGES PAGE: makes the page of reports of src/, with the packages of the lock file that npm has
+// put into the folder PACKAGES. The page is one file: script and style stand in it, and the licences of what it brings.
 import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import { dirname, join } from 'node:path';
@@ -12,8 +12,16 @@ const { buildSync } = createRequire(join(packages, 'package.json'))('esbuild');
 /** One source with all that it imports, as text. */
 function bundled(entry) {
   const made = buildSync({
-    entryPoints: [join(here, 'src', entry)], bundle: true, minify: true, write: false, format: 'esm', target: 'es2021',
-    legalComments: 'none', charset: 'utf8', nodePaths: [join(packages, 'node_modules')], logLevel: 'error',
+    entryPoints: [join(here, 'src', entry)],
+    bundle: true,
+    minify: true,
+    write: false,
+    format: 'esm',
+    target: 'es2021',
+    legalComments: 'none',
+    charset: 'utf8',
+    nodePaths: [join(packages, 'node_modules')],
+    logLevel: 'error',
   });
   return made.outputFiles[0].text;
 }
@@ -32,4 +40,7 @@ const parts = {
 };
 const frame = readFileSync(join(here, 'src', 'page.html'), 'utf8');
 mkdirSync(dirname(page), { recursive: true });
-writeFileSync(page, frame.replace(/\{\{(\w+)\}\}/g, (_, part) => parts[part]));
+writeFileSync(
+  page,
+  frame.replace(/\{\{(\w+)\}\}/g, (_, part) => parts[part]),
+);

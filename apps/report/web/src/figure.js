@@ -9,32 +9,67 @@ let count = 0;
 /**
  * @param {{title: string, names: string[], note?: string, csv: () => string, canvas: () => HTMLCanvasElement,
  *          reset?: () => void, log?: (on: boolean) => void, draw: (chosen: Set<string>) => void}} what
- * @returns {{element: HTMLElement, place: HTMLElement, chosen: Set<string>, setColours: (of: (name: string) => string) => void}}
+ * @returns {{element: HTMLElement, place: HTMLElement, chosen: Set<string>,
+ *   setColours: (of: (name: string) => string) => void}} `setColours` takes a background of CSS for each name
  */
 export function figure(what) {
   const chosen = new Set(what.names.slice(0, MOST));
   const place = h('div', { class: 'plot' });
   const id = `figure${++count}`;
-  const file = what.title.toLowerCase().replace(/[^a-z0-9]+/g, '_').replace(/^_|_$/g, '') || id;
-  const tools = h('div', { class: 'tools' },
+  const file =
+    what.title
+      .toLowerCase()
+      .replace(/[^a-z0-9]+/g, '_')
+      .replace(/^_|_$/g, '') || id;
+  const tools = h(
+    'div',
+    { class: 'tools' },
     what.log ? toggle('log', 'Logarithmic scale', what.log) : null,
     what.reset ? button('⟲', 'Show all again (double click)', what.reset, { class: 'reset' }) : null,
     button('PNG', 'Save this figure as a picture', () => savePicture(what, file)),
-    button('CSV', 'Save the numbers of this figure', () => download(`${file}.csv`, what.csv(), 'text/csv')));
+    button('CSV', 'Save the numbers of this figure', () => download(`${file}.csv`, what.csv(), 'text/csv')),
+  );
   const legend = what.names.length > 1 || what.always ? legendOf(what, chosen) : null;
-  const element = h('figure', { id, 'aria-labelledby': `${id}c` },
-    h('figcaption', { id: `${id}c` }, h('span', { class: 'name' }, what.title), tools), place, legend?.element,
-    what.note ? h('p', { class: 'note' }, what.note) : null);
+  const element = h(
+    'figure',
+    { id, 'aria-labelledby': `${id}c` },
+    h('figcaption', { id: `${id}c` }, h('span', { class: 'name' }, what.title), tools),
+    place,
+    legend?.element,
+    what.note ? h('p', { class: 'note' }, what.note) : null,
+  );
   return { element, place, chosen, setColours: (of) => legend?.colour(of) };
+}
+
+/**
+ * Figures are drawn when they come near the window, or go on paper: long reports open at once.
+ * @param {HTMLElement} place @param {() => void} draw is called once
+ */
+export function whenNear(place, draw) {
+  const once = () => {
+    near.disconnect();
+    removeEventListener('beforeprint', once);
+    draw();
+  };
+  const near = new IntersectionObserver((entries) => entries.some((e) => e.isIntersecting) && once(), {
+    rootMargin: '400px',
+  });
+  near.observe(place);
+  addEventListener('beforeprint', once);
 }
 
 /** A button that stays pressed. */
 export function toggle(label, title, onchange, pressed = false) {
-  const b = button(label, title, () => {
-    const on = b.getAttribute('aria-pressed') !== 'true';
-    b.setAttribute('aria-pressed', on);
-    onchange(on);
-  }, { 'aria-pressed': pressed });
+  const b = button(
+    label,
+    title,
+    () => {
+      const on = b.getAttribute('aria-pressed') !== 'true';
+      b.setAttribute('aria-pressed', on);
+      onchange(on);
+    },
+    { 'aria-pressed': pressed },
+  );
   return b;
 }
 
@@ -57,16 +92,25 @@ function legendOf(what, chosen) {
     what.draw(chosen);
   }
   return {
-    element: h('div', { class: 'legend', role: 'group', 'aria-label': `Curves of ${what.title}` }, items.map((i) => i.element),
-      what.names.length > MOST ? h('span', { class: 'note' }, `${MOST} of ${what.names.length} at once`) : null, said),
-    colour: (of) => items.forEach(({ name, mark }) => { mark.style.background = chosen.has(name) ? of(name) : 'transparent'; }),
+    element: h(
+      'div',
+      { class: 'legend', role: 'group', 'aria-label': `Curves of ${what.title}` },
+      items.map((i) => i.element),
+      what.names.length > MOST ? h('span', { class: 'note' }, `${MOST} of ${what.names.length} at once`) : null,
+      said,
+    ),
+    colour: (of) =>
+      items.forEach(({ name, mark }) => {
+        mark.style.background = chosen.has(name) ? of(name) : 'transparent';
+      }),
   };
 }
 
 /** The drawing on the background of the page, with its title and the names of its curves. */
 function savePicture(what, file) {
   const source = what.canvas();
-  const ratio = devicePixelRatio || 1, top = 34 * ratio;
+  const ratio = devicePixelRatio || 1,
+    top = 34 * ratio;
   const canvas = h('canvas', { width: source.width, height: source.height + top });
   const pen = canvas.getContext('2d');
   const style = getComputedStyle(document.body);

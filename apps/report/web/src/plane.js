@@ -11,13 +11,15 @@ export function ticksOf(low, high, wanted = 6) {
   const power = 10 ** Math.floor(Math.log10(raw));
   const step = [1, 2, 5, 10].map((m) => m * power).find((s) => s >= raw * 0.999);
   const out = [];
-  for (let v = Math.ceil(low / step - 1e-9) * step; v <= high + 1e-9 * step; v += step) out.push(Math.abs(v) < step * 1e-6 ? 0 : v);
+  for (let v = Math.ceil(low / step - 1e-9) * step; v <= high + 1e-9 * step; v += step)
+    out.push(Math.abs(v) < step * 1e-6 ? 0 : v);
   return out;
 }
 
 /** The least and the largest finite value of several lists, with room about them. */
 export function extentOf(lists, room = 0.05) {
-  let low = Infinity, high = -Infinity;
+  let low = Infinity,
+    high = -Infinity;
   for (const list of lists)
     for (const v of list)
       if (Number.isFinite(v)) {
@@ -31,7 +33,8 @@ export function extentOf(lists, room = 0.05) {
 
 /**
  * @param {HTMLElement} place
- * @param {{height?: number, equal?: boolean, read: () => {x: {label: string, range: number[]}, y: {label: string, range: number[]}},
+ * @param {{height?: number, equal?: boolean, read: () => {x: {label: string, range: number[]},
+ *         y: {label: string, range: number[]}},
  *          paint: (pen: CanvasRenderingContext2D, at: {x: (v: number) => number, y: (v: number) => number}) => void,
  *          tell?: (x: number, y: number) => string}} what `paint` draws in the plane, `tell` says what is at a point
  */
@@ -39,10 +42,14 @@ export function plane(place, what) {
   const canvas = h('canvas', { class: 'plane', tabindex: '0', role: 'img' });
   const said = h('div', { class: 'readout', 'aria-live': 'off' });
   place.replaceChildren(canvas, said);
-  let zoom = null, scale = null, from = null;
+  let zoom = null,
+    scale = null,
+    from = null;
 
   function size() {
-    const ratio = devicePixelRatio || 1, width = place.clientWidth || 500, height = what.height ?? 320;
+    const ratio = devicePixelRatio || 1,
+      width = place.clientWidth || 500,
+      height = what.height ?? 320;
     canvas.width = Math.round(width * ratio);
     canvas.height = Math.round(height * ratio);
     canvas.style.width = `${width}px`;
@@ -51,7 +58,8 @@ export function plane(place, what) {
   }
 
   function ranges(width, height, axes) {
-    const xr = zoom?.x ?? axes.x.range, yr = zoom?.y ?? axes.y.range;
+    const xr = zoom?.x ?? axes.x.range,
+      yr = zoom?.y ?? axes.y.range;
     if (!what.equal) return [xr, yr];
     const per = Math.max((xr[1] - xr[0]) / width, (yr[1] - yr[0]) / height);
     const about = (r, n) => [(r[0] + r[1] - per * n) / 2, (r[0] + r[1] + per * n) / 2];
@@ -60,12 +68,16 @@ export function plane(place, what) {
 
   function draw() {
     const { ratio, width, height } = size();
-    const axes = what.read(), pen = canvas.getContext('2d');
-    const w = width - MARGIN.left - MARGIN.right, ht = height - MARGIN.top - MARGIN.bottom;
+    const axes = what.read(),
+      pen = canvas.getContext('2d');
+    const w = width - MARGIN.left - MARGIN.right,
+      ht = height - MARGIN.top - MARGIN.bottom;
     const [xr, yr] = ranges(w, ht, axes);
     scale = {
-      x: (v) => MARGIN.left + ((v - xr[0]) / (xr[1] - xr[0])) * w, y: (v) => MARGIN.top + ht - ((v - yr[0]) / (yr[1] - yr[0])) * ht,
-      ofX: (px) => xr[0] + ((px - MARGIN.left) / w) * (xr[1] - xr[0]), ofY: (py) => yr[0] + ((MARGIN.top + ht - py) / ht) * (yr[1] - yr[0]),
+      x: (v) => MARGIN.left + ((v - xr[0]) / (xr[1] - xr[0])) * w,
+      y: (v) => MARGIN.top + ht - ((v - yr[0]) / (yr[1] - yr[0])) * ht,
+      ofX: (px) => xr[0] + ((px - MARGIN.left) / w) * (xr[1] - xr[0]),
+      ofY: (py) => yr[0] + ((MARGIN.top + ht - py) / ht) * (yr[1] - yr[0]),
     };
     canvas.setAttribute('aria-label', `${axes.y.label} over ${axes.x.label}`);
     place.dataset.x = axes.x.label;
@@ -109,8 +121,14 @@ export function plane(place, what) {
     const box = canvas.getBoundingClientRect();
     return [event.clientX - box.left, event.clientY - box.top];
   };
-  const reset = () => { zoom = null; draw(); };
-  canvas.addEventListener('pointerdown', (event) => { from = at(event); canvas.setPointerCapture(event.pointerId); });
+  const reset = () => {
+    zoom = null;
+    draw();
+  };
+  canvas.addEventListener('pointerdown', (event) => {
+    from = at(event);
+    canvas.setPointerCapture(event.pointerId);
+  });
   canvas.addEventListener('pointermove', (event) => {
     const [x, y] = at(event);
     if (from) {
@@ -123,7 +141,8 @@ export function plane(place, what) {
     }
   });
   canvas.addEventListener('pointerup', (event) => {
-    const [x, y] = at(event), begin = from;
+    const [x, y] = at(event),
+      begin = from;
     from = null;
     if (begin && Math.abs(x - begin[0]) > 6 && Math.abs(y - begin[1]) > 6) {
       const sorted = (a, b) => [Math.min(a, b), Math.max(a, b)];
@@ -131,7 +150,9 @@ export function plane(place, what) {
     }
     draw();
   });
-  canvas.addEventListener('pointerleave', () => { said.textContent = ''; });
+  canvas.addEventListener('pointerleave', () => {
+    said.textContent = '';
+  });
   canvas.addEventListener('dblclick', reset);
   new ResizeObserver(draw).observe(place);
   return { draw, reset, canvas };
@@ -149,7 +170,10 @@ export function path(pen, at, xs, ys) {
   pen.beginPath();
   let on = false;
   for (let i = 0; i < xs.length; ++i) {
-    if (!Number.isFinite(xs[i]) || !Number.isFinite(ys[i])) { on = false; continue; }
+    if (!Number.isFinite(xs[i]) || !Number.isFinite(ys[i])) {
+      on = false;
+      continue;
+    }
     if (on) pen.lineTo(at.x(xs[i]), at.y(ys[i]));
     else pen.moveTo(at.x(xs[i]), at.y(ys[i]));
     on = true;

@@ -6,15 +6,43 @@ import { button, h, select } from './dom.js';
  * @param {(t: number) => void} show
  */
 export function player(time, show) {
-  const begin = time[0], end = time[time.length - 1];
-  let t = begin, speed = 1, playing = false, last = 0;
+  const begin = time[0],
+    end = time[time.length - 1];
+  let t = begin,
+    speed = 1,
+    playing = false,
+    last = 0;
   const readout = h('output', { class: 'time' });
   const slider = h('input', {
-    type: 'range', min: begin, max: end, step: 'any', value: begin, 'aria-label': 'Time, s', oninput: () => goTo(Number(slider.value)),
+    type: 'range',
+    min: begin,
+    max: end,
+    step: 'any',
+    value: begin,
+    'aria-label': 'Time, s',
+    oninput: () => goTo(Number(slider.value)),
   });
   const play = button('▶', 'Play', () => setPlaying(!playing), { class: 'play' });
-  const element = h('div', { class: 'player' }, play, slider, readout,
-    select('Speed', [['0.25', '¼×'], ['1', '1×'], ['4', '4×'], ['16', '16×']], '1', (v) => { speed = Number(v); }));
+  const element = h(
+    'div',
+    { class: 'player' },
+    play,
+    slider,
+    readout,
+    select(
+      'Speed',
+      [
+        ['0.25', '¼×'],
+        ['1', '1×'],
+        ['4', '4×'],
+        ['16', '16×'],
+      ],
+      '1',
+      (v) => {
+        speed = Number(v);
+      },
+    ),
+  );
 
   function goTo(at) {
     t = Math.min(Math.max(at, begin), end);

@@ -30,7 +30,13 @@ const SECTIONS = {
     run.wall_time.length ? part('Time of computation', timeShares(run)) : null,
     run.plan ? part('Plan', folded('Effects, methods and what is left out', false, planTable(run.plan))) : null,
   ],
-  rao: (rao, id) => [part('Response amplitude operators', grid(raoFigures([rao], `${id}w`))), part('Peaks', following(() => peaksTable(rao)))],
+  rao: (rao, id) => [
+    part('Response amplitude operators', grid(raoFigures([rao], `${id}w`))),
+    part(
+      'Peaks',
+      following(() => peaksTable(rao)),
+    ),
+  ],
   modes: (modes) => [part('Free motions', modesTable(modes))],
   table: (result, id) => [part('Curves', grid(tableFigures(result, `${id}x`)))],
   fit: (fit) => [part('Values', fitParts(fit)), part('Measured and fitted', grid(fitFigures(fit)))],
@@ -38,20 +44,36 @@ const SECTIONS = {
     const { all, done, failed, skipped } = sweep.cases;
     const rest = all - done - failed - skipped;
     return [
-      rest > 0 ? alarm('Partial', `${rest} of ${all} cases are still to be run; what follows is of the others.`) : null,
+      rest > 0
+        ? alarm('Partial', `${rest} of ${all} cases are still to be run; what follows is of the others.`)
+        : null,
       h('p', {}, `Of ${all} cases ${done} are done, ${failed} have failed and ${skipped} are skipped.`),
       part('Curves and maps', sweepFigures(sweep)),
       part('Cases', folded('All cases', sweep.number.length <= 30, casesTable(sweep))),
-      sweep.why.length ? part('What went wrong', h('ul', {}, sweep.why.map(([n, state, why]) => h('li', {}, `Case ${n}, ${state}: ${why}`)))) : null,
+      sweep.why.length
+        ? part(
+            'Cases that failed, were skipped or warn',
+            h(
+              'ul',
+              {},
+              sweep.why.map(([n, state, why]) => h('li', {}, `Case ${n}, ${state}: ${why}`)),
+            ),
+          )
+        : null,
     ];
   },
 };
 
 /** @returns {HTMLElement} the whole of one result */
 export function sectionOf(result, i) {
-  return h('section', { class: 'result', id: `result${i}`, 'data-kind': result.kind },
+  return h(
+    'section',
+    { class: 'result', id: `result${i}`, 'data-kind': result.kind },
     h('h2', {}, result.title || result.label, result.title ? h('small', {}, ` ${result.label}`) : null),
-    summary(result), SECTIONS[result.kind](result, `r${i}`), part('How it came about', origins(result)));
+    summary(result),
+    SECTIONS[result.kind](result, `r${i}`),
+    part('How it came about', origins(result)),
+  );
 }
 
 export { grid, part };

@@ -4,14 +4,16 @@ import { grouped, numbers } from './data.js';
 import { h } from './dom.js';
 import { MODES, isEnergy, isLoad, quantityOf, sortedQuantities, split, titleOf } from './quantity.js';
 import { settings } from './settings.js';
-import { ABSCISSAE, densityUnit, labelled, shown } from './units.js';
+import { ABSCISSAE, densityUnit, format, labelled, shown } from './units.js';
 import { xyFigure } from './xyfigure.js';
 
 /** "Heave", and "Load in heave" where it is a force or a moment. */
-const headed = (key, all) => (isLoad(all[0]) && MODES.includes(key.split('\n')[0]) ? `Load in ${key.split('\n')[0]}` : titleOf(key));
+const headed = (key, all) =>
+  isLoad(all[0]) && MODES.includes(key.split('\n')[0]) ? `Load in ${key.split('\n')[0]}` : titleOf(key);
 
 const scaled = (values, factor) => (factor === 1 ? values : Array.from(values, (v) => v * factor));
-const largestOf = (lists) => lists.reduce((most, list) => list.reduce((m, v) => Math.max(m, Math.abs(v) || 0), most), 0);
+const largestOf = (lists) =>
+  lists.reduce((most, list) => list.reduce((m, v) => Math.max(m, Math.abs(v) || 0), most), 0);
 
 /** What is said of a figure whose series are thinned. */
 export function thinned(run) {
@@ -25,17 +27,23 @@ export function thinned(run) {
 export function seriesFigures(run, group) {
   const time = numbers(run.time);
   const signals = run.signals.filter((s) => !isEnergy(s));
-  return sortedQuantities(grouped(signals, quantityOf)).map(([key, all]) => curveFigure({
-    title: headed(key, all), group, note: thinned(run), log: false,
-    read: () => {
-      const lists = all.map((s) => numbers(s.values));
-      const { factor, unit } = shown(all[0].unit, largestOf(lists));
-      return {
-        x: { label: 'time t [s]', values: time }, y: { label: labelled(split(all[0].name)[1].replaceAll('_', ' '), unit) },
-        curves: all.map((s, i) => ({ name: split(s.name)[0] || s.name, values: scaled(lists[i], factor) })),
-      };
-    },
-  }));
+  return sortedQuantities(grouped(signals, quantityOf)).map(([key, all]) =>
+    curveFigure({
+      title: headed(key, all),
+      group,
+      note: thinned(run),
+      log: false,
+      read: () => {
+        const lists = all.map((s) => numbers(s.values));
+        const { factor, unit } = shown(all[0].unit, largestOf(lists));
+        return {
+          x: { label: 'time t [s]', values: time },
+          y: { label: labelled(split(all[0].name)[1].replaceAll('_', ' '), unit) },
+          curves: all.map((s, i) => ({ name: split(s.name)[0] || s.name, values: scaled(lists[i], factor) })),
+        };
+      },
+    }),
+  );
 }
 
 /** Densities over period, ω or f, with their interval where one curve is drawn. */
@@ -45,28 +53,51 @@ export function spectrumFigures(run, group) {
   const frequency = numbers(spectra.frequency);
   const begin = frequency[0] === 0 ? 1 : 0; // a mean has no period
   const signals = run.signals.filter((s) => s.name in spectra.signals);
-  const note = `Welch's method: segments of ${spectra.segment.toPrecision(4)} s that overlap by half, resolution ` +
-    `${spectra.resolution.toPrecision(3)} Hz, ${spectra.dof.toPrecision(3)} degrees of freedom; with ${100 * spectra.confidence} % the density is ` +
-    `between ${spectra.low.toPrecision(3)} and ${spectra.high.toPrecision(3)} times the curve (shaded for the first one). Made before the series were thinned.`;
-  return sortedQuantities(grouped(signals, quantityOf)).map(([key, all], number) => curveFigure({
-    title: `${headed(key, all)}: spectral density`, group, note: number ? undefined : note,
-    read: () => {
-      const order = [...frequency.keys()].slice(begin);
-      const abscissa = ABSCISSAE[settings.abscissa];
-      if (settings.abscissa === 'T') order.reverse();
-      const lists = all.map((s) => numbers(spectra.signals[s.name]));
-      const { factor, unit } = densityUnit(all[0].unit, settings.abscissa, Math.sqrt(largestOf(lists)));
-      const along = (list, times) => order.map((i) => list[i] * times);
-      return {
-        x: { label: abscissa.label, values: order.map((i) => abscissa.of(2 * Math.PI * frequency[i])), first: settings.abscissa === 'T' ? mostOf(frequency, lists) : undefined },
-        y: { label: labelled('S', unit) },
-        curves: all.map((s, i) => ({
-          name: split(s.name)[0] || s.name, values: along(lists[i], factor),
-          ...(i === 0 ? { low: along(lists[i], factor * spectra.low), high: along(lists[i], factor * spectra.high) } : {}),
-        })),
-      };
-    },
-  }));
+  const note =
+    `Welch's method: segments of ${spectra.segment.toPrecision(4)} s that overlap by half, resolution ` +
+    `${spectra.resolution.toPrecision(3)} Hz, ${spectra.dof.toPrecision(3)} degrees of freedom; ` +
+    `with ${100 * spectra.confidence} % the density is ` +
+    `between ${spectra.low.toPrecision(3)} and ${spectra.high.toPrecision(3)} times the curve ` +
+    '(shaded for the first one). Made before the series were thinned.';
+  return sortedQuantities(grouped(signals, quantityOf)).map(([key, all], number) =>
+    curveFigure({
+      title: `${headed(key, all)}: spectral density`,
+      group,
+      note: [number ? '' : note, unresolved(all, spectra)].filter(Boolean).join(' ') || undefined,
+      read: () => {
+        const order = [...frequency.keys()].slice(begin);
+        const abscissa = ABSCISSAE[settings.abscissa];
+        if (settings.abscissa === 'T') order.reverse();
+        const lists = all.map((s) => numbers(spectra.signals[s.name]));
+        const { factor, unit } = densityUnit(all[0].unit, settings.abscissa, Math.sqrt(largestOf(lists)));
+        const along = (list, times) => order.map((i) => list[i] * times);
+        return {
+          x: {
+            label: abscissa.label,
+            values: order.map((i) => abscissa.of(2 * Math.PI * frequency[i])),
+            first: settings.abscissa === 'T' ? mostOf(frequency, lists) : undefined,
+          },
+          y: { label: labelled('S', unit) },
+          curves: all.map((s, i) => ({
+            name: split(s.name)[0] || s.name,
+            values: along(lists[i], factor),
+            ...(i === 0
+              ? { low: along(lists[i], factor * spectra.low), high: along(lists[i], factor * spectra.high) }
+              : {}),
+          })),
+        };
+      },
+    }),
+  );
+}
+
+/** What the segments are too short for. */
+function unresolved(all, spectra) {
+  const names = all.filter((s) => spectra.unresolved.includes(s.name)).map((s) => split(s.name)[0] || s.name);
+  return names.length
+    ? `Not resolved: more than a fifth of the variance of ${names.join(', ')} lies at periods above ` +
+        `${format(spectra.segment / 1.5, 3)} s, for which the record is too short.`
+    : '';
 }
 
 /** Periods from the shortest to that beyond which a thousandth of the variance of each lies. */
@@ -74,7 +105,8 @@ function mostOf(frequency, lists) {
   let lowest = frequency.length - 1;
   for (const list of lists) {
     const sum = list.reduce((all, v) => all + v, 0);
-    let i = 1, below = 0;
+    let i = 1,
+      below = 0;
     while (i < lowest && (below += list[i]) < 1e-3 * sum) ++i;
     lowest = Math.min(lowest, i);
   }
@@ -84,58 +116,96 @@ function mostOf(frequency, lists) {
 /** The velocity over the motion, one figure a quantity of length or angle. */
 export function phaseFigures(run) {
   const { phase } = run;
-  const signals = run.signals.filter((s) => s.name in phase.signals && (s.unit === 'm' || s.unit === 'rad') && s.name !== 'wave.elevation'
-    && !/^[xyz]$/.test(split(s.name)[1]));
-  const note = `From ${phase.from.toPrecision(5)} to ${phase.to.toPrecision(5)} s${phase.whole ? '' : ', the end of the record'}; velocities are central differences of it.`;
-  return sortedQuantities(grouped(signals, quantityOf)).map(([key, all], number) => xyFigure({
-    title: `${titleOf(key)}: phase`, note: number ? undefined : note,
-    read: () => {
-      const { factor, unit } = shown(all[0].unit);
-      const word = split(all[0].name)[1].replaceAll('_', ' ');
-      return {
-        x: labelled(word, unit), y: labelled(`${word} rate`, `${unit}/s`),
-        curves: all.map((s) => ({
-          name: split(s.name)[0] || s.name, x: scaled(numbers(phase.signals[s.name].x), factor), y: scaled(numbers(phase.signals[s.name].v), factor),
-        })),
-      };
-    },
-  }));
+  const signals = run.signals.filter(
+    (s) =>
+      s.name in phase.signals &&
+      (s.unit === 'm' || s.unit === 'rad') &&
+      s.name !== 'wave.elevation' &&
+      !/^[xyz]$/.test(split(s.name)[1]),
+  );
+  const note =
+    `From ${phase.from.toPrecision(5)} to ${phase.to.toPrecision(5)} s` +
+    `${phase.whole ? '' : ', the end of the record'}; ` +
+    'velocities are central differences of it.';
+  return sortedQuantities(grouped(signals, quantityOf)).map(([key, all], number) =>
+    xyFigure({
+      title: `${titleOf(key)}: phase`,
+      note: number ? undefined : note,
+      read: () => {
+        const { factor, unit } = shown(all[0].unit);
+        const word = split(all[0].name)[1].replaceAll('_', ' ');
+        return {
+          x: labelled(word, unit),
+          y: labelled(`${word} rate`, `${unit}/s`),
+          curves: all.map((s) => ({
+            name: split(s.name)[0] || s.name,
+            x: scaled(numbers(phase.signals[s.name].x), factor),
+            y: scaled(numbers(phase.signals[s.name].v), factor),
+          })),
+        };
+      },
+    }),
+  );
 }
 
 /** Paths in plan and in elevation, of bodies (surge, sway, heave) and of points (x, y, z). */
 export function trajectoryFigures(run) {
   const { phase } = run;
-  const paths = [['surge', 'sway', 'heave'], ['x', 'y', 'z']].flatMap(([x, y, z]) => [[x, y], [x, z]].map(([a, b]) => ({ a, b })));
+  const paths = [
+    ['surge', 'sway', 'heave'],
+    ['x', 'y', 'z'],
+  ].flatMap(([x, y, z]) =>
+    [
+      [x, y],
+      [x, z],
+    ].map(([a, b]) => ({ a, b })),
+  );
   return paths.flatMap(({ a, b }) => {
-    const owners = run.signals.filter((s) => split(s.name)[1] === a).map((s) => split(s.name)[0])
+    const owners = run.signals
+      .filter((s) => split(s.name)[1] === a && s.unit === 'm') // a mooring's surge is a load
+      .map((s) => split(s.name)[0])
       .filter((owner) => `${owner}.${a}` in phase.signals && `${owner}.${b}` in phase.signals);
     if (!owners.length) return [];
-    return [xyFigure({
-      title: `Trajectories: ${b} over ${a}`, equal: true,
-      read: () => {
-        const { factor, unit } = shown('m');
-        const of = (owner, word) => scaled(numbers(phase.signals[`${owner}.${word}`].x), factor);
-        return { x: labelled(a, unit), y: labelled(b, unit), curves: owners.map((o) => ({ name: o, x: of(o, a), y: of(o, b) })) };
-      },
-    })];
+    return [
+      xyFigure({
+        title: `Trajectories: ${b} over ${a}`,
+        equal: true,
+        read: () => {
+          const { factor, unit } = shown('m');
+          const of = (owner, word) => scaled(numbers(phase.signals[`${owner}.${word}`].x), factor);
+          return {
+            x: labelled(a, unit),
+            y: labelled(b, unit),
+            curves: owners.map((o) => ({ name: o, x: of(o, a), y: of(o, b) })),
+          };
+        },
+      }),
+    ];
   });
 }
 
 /** The same signal of several runs over each other; each run has times of its own, which are joined. */
 export function comparedFigures(runs, group) {
-  const names = runs[0].signals.filter((s) => !isEnergy(s) && runs.slice(1).some((r) => r.signals.some((o) => o.name === s.name && o.unit === s.unit)));
-  return names.map((signal) => curveFigure({
-    title: signal.name, group, log: false,
-    read: () => {
-      const those = runs.map((run) => [run, run.signals.find((s) => s.name === signal.name)]).filter(([, s]) => s);
-      const { factor, unit } = shown(signal.unit, largestOf(those.map(([, s]) => numbers(s.values))));
-      const joined = joinTimes(those.map(([run, s]) => [numbers(run.time), numbers(s.values)]));
-      return {
-        x: { label: 'time t [s]', values: joined.time }, y: { label: labelled(split(signal.name)[1], unit) },
-        curves: those.map(([run], i) => ({ name: run.label, values: scaled(joined.values[i], factor) })),
-      };
-    },
-  }));
+  const names = runs[0].signals.filter(
+    (s) => !isEnergy(s) && runs.slice(1).some((r) => r.signals.some((o) => o.name === s.name && o.unit === s.unit)),
+  );
+  return names.map((signal) =>
+    curveFigure({
+      title: signal.name,
+      group,
+      log: false,
+      read: () => {
+        const those = runs.map((run) => [run, run.signals.find((s) => s.name === signal.name)]).filter(([, s]) => s);
+        const { factor, unit } = shown(signal.unit, largestOf(those.map(([, s]) => numbers(s.values))));
+        const joined = joinTimes(those.map(([run, s]) => [numbers(run.time), numbers(s.values)]));
+        return {
+          x: { label: 'time t [s]', values: joined.time },
+          y: { label: labelled(split(signal.name)[1], unit) },
+          curves: those.map(([run], i) => ({ name: run.label, values: scaled(joined.values[i], factor) })),
+        };
+      },
+    }),
+  );
 }
 
 /** Series of other times on the times of all, by straight lines; NaN outside of their record. */

@@ -6,29 +6,44 @@ import { plane, ticksOf } from './plane.js';
 import { format, labelled } from './units.js';
 import { xyFigure } from './xyfigure.js';
 
-const distinct = (values) => [...new Set(values.filter((v) => v !== null))].sort((a, b) => (typeof a === 'number' ? a - b : String(a).localeCompare(b)));
+const distinct = (values) =>
+  [...new Set(values.filter((v) => v !== null))].sort((a, b) =>
+    typeof a === 'number' ? a - b : String(a).localeCompare(b),
+  );
 const isNumeric = (axis) => axis.values.every((v) => v === null || typeof v === 'number');
 
 /** Means of an output over the cases at each value of x, and of y if there is one; NaN where none is done. */
 export function gridOf(sweep, of, x, y) {
-  const xs = distinct(x.values), ys = y ? distinct(y.values) : [null];
+  const xs = distinct(x.values),
+    ys = y ? distinct(y.values) : [null];
   const sums = ys.map(() => xs.map(() => [0, 0]));
   of.values.forEach((v, i) => {
     if (v === null) return;
     const cell = sums[y ? ys.indexOf(y.values[i]) : 0]?.[xs.indexOf(x.values[i])];
-    if (cell) { cell[0] += v; cell[1] += 1; }
+    if (cell) {
+      cell[0] += v;
+      cell[1] += 1;
+    }
   });
-  return { xs, ys, means: sums.map((row) => row.map(([sum, n]) => (n ? sum / n : NaN))), most: Math.max(...sums.flat().map(([, n]) => n)) };
+  return {
+    xs,
+    ys,
+    means: sums.map((row) => row.map(([sum, n]) => (n ? sum / n : NaN))),
+    most: Math.max(...sums.flat().map(([, n]) => n)),
+  };
 }
 
 /** Choices of output and axes, and what comes of them. */
 export function sweepFigures(sweep) {
   const axes = sweep.axes.filter((a) => distinct(a.values).length > 1);
-  if (!axes.length || !sweep.outputs.length) return [h('p', { class: 'note' }, 'There is nothing to draw: no axis takes two values, or no case is done yet.')];
+  if (!axes.length || !sweep.outputs.length)
+    return [h('p', { class: 'note' }, 'There is nothing to draw: no axis takes two values, or no case is done yet.')];
   const asked = sweep.pictures[0] ?? {};
   const by = (all, name, other) => all.find((a) => a.name === name) ?? other;
-  let of = by(sweep.outputs, asked.of, sweep.outputs[0]), x = by(axes, asked.x, axes[0]);
-  let y = by(axes, asked.y ?? asked.by, axes.find((a) => a !== x) ?? null), isMap = asked.y !== undefined || !asked.by;
+  let of = by(sweep.outputs, asked.of, sweep.outputs[0]),
+    x = by(axes, asked.x, axes[0]);
+  let y = by(axes, asked.y ?? asked.by, axes.find((a) => a !== x) ?? null),
+    isMap = asked.y !== undefined || !asked.by;
   const place = h('div', {});
   const names = (all) => all.map((a) => [a.name, labelled(a.name, a.unit)]);
   const draw = () => {
@@ -36,25 +51,64 @@ export function sweepFigures(sweep) {
     const canMap = y && isNumeric(x) && isNumeric(y);
     place.replaceChildren(isMap && canMap ? mapFigure(sweep, of, x, y) : curvesFigure(sweep, of, x, y));
   };
-  const choices = h('div', { class: 'choices' },
-    select('Output', names(sweep.outputs), of.name, (v) => { of = by(sweep.outputs, v); draw(); }),
-    select('Along', names(axes), x.name, (v) => { x = by(axes, v); draw(); }),
-    axes.length > 1 ? select('By', names(axes), y.name, (v) => { y = by(axes, v); draw(); }) : null,
-    axes.length > 1 ? select('As', [['map', 'map'], ['curves', 'curves']], isMap ? 'map' : 'curves', (v) => { isMap = v === 'map'; draw(); }) : null);
+  const choices = h(
+    'div',
+    { class: 'choices' },
+    select('Output', names(sweep.outputs), of.name, (v) => {
+      of = by(sweep.outputs, v);
+      draw();
+    }),
+    select('Along', names(axes), x.name, (v) => {
+      x = by(axes, v);
+      draw();
+    }),
+    axes.length > 1
+      ? select('By', names(axes), y.name, (v) => {
+          y = by(axes, v);
+          draw();
+        })
+      : null,
+    axes.length > 1
+      ? select(
+          'As',
+          [
+            ['map', 'map'],
+            ['curves', 'curves'],
+          ],
+          isMap ? 'map' : 'curves',
+          (v) => {
+            isMap = v === 'map';
+            draw();
+          },
+        )
+      : null,
+  );
   draw();
   return [choices, place];
 }
 
-const meansNote = (grid) => (grid.most > 1 ? `Means of up to ${grid.most} cases at one point: further axes vary.` : undefined);
+const meansNote = (grid) =>
+  grid.most > 1 ? `Means of up to ${grid.most} cases at one point: further axes vary.` : undefined;
 
 function curvesFigure(sweep, of, x, y) {
-  const grid = gridOf(sweep, of, x, y), words = !isNumeric(x);
+  const grid = gridOf(sweep, of, x, y),
+    words = !isNumeric(x);
   const xs = words ? grid.xs.map((_, i) => i + 1) : grid.xs;
   return xyFigure({
-    title: labelled(of.name, of.unit), note: [words ? `Along ${x.name}: ${grid.xs.map((v, i) => `${i + 1} ${v}`).join(', ')}.` : '', meansNote(grid) ?? ''].join(' ').trim() || undefined,
+    title: labelled(of.name, of.unit),
+    note:
+      [words ? `Along ${x.name}: ${grid.xs.map((v, i) => `${i + 1} ${v}`).join(', ')}.` : '', meansNote(grid) ?? '']
+        .join(' ')
+        .trim() || undefined,
     read: () => ({
-      x: labelled(x.name, words ? '' : x.unit), y: labelled(of.name, of.unit),
-      curves: grid.ys.map((v, i) => ({ name: y ? `${y.name} ${typeof v === 'number' ? format(v) : v} ${y.unit}`.trim() : of.name, x: xs, y: grid.means[i], marks: true })),
+      x: labelled(x.name, words ? '' : x.unit),
+      y: labelled(of.name, of.unit),
+      curves: grid.ys.map((v, i) => ({
+        name: y ? `${y.name} ${typeof v === 'number' ? format(v) : v} ${y.unit}`.trim() : of.name,
+        x: xs,
+        y: grid.means[i],
+        marks: true,
+      })),
     }),
   });
 }
@@ -62,33 +116,62 @@ function curvesFigure(sweep, of, x, y) {
 /** Borders between values: halfway, and as far outside. */
 export function bordersOf(values) {
   const middle = values.slice(1).map((v, i) => (v + values[i]) / 2);
-  return [values[0] - (middle[0] - values[0]), ...middle, values[values.length - 1] + (values[values.length - 1] - middle[middle.length - 1])];
+  return [
+    values[0] - (middle[0] - values[0]),
+    ...middle,
+    values[values.length - 1] + (values[values.length - 1] - middle[middle.length - 1]),
+  ];
 }
 
 function mapFigure(sweep, of, x, y) {
-  const grid = gridOf(sweep, of, x, y), finite = grid.means.flat().filter(Number.isFinite);
-  const low = Math.min(...finite), high = Math.max(...finite);
-  const bx = bordersOf(grid.xs), by = bordersOf(grid.ys), share = (v) => (high > low ? (v - low) / (high - low) : 0.5);
+  const grid = gridOf(sweep, of, x, y),
+    finite = grid.means.flat().filter(Number.isFinite);
+  const low = Math.min(...finite),
+    high = Math.max(...finite);
+  const bx = bordersOf(grid.xs),
+    by = bordersOf(grid.ys),
+    share = (v) => (high > low ? (v - low) / (high - low) : 0.5);
   let drawn = null;
-  const columns = [{ name: labelled(x.name, x.unit), values: grid.xs }, ...grid.ys.map((v, i) => ({ name: `${labelled(of.name, of.unit)} at ${y.name} ${v} ${y.unit}`, values: grid.means[i] }))];
+  const columns = [
+    { name: labelled(x.name, x.unit), values: grid.xs },
+    ...grid.ys.map((v, i) => ({
+      name: `${labelled(of.name, of.unit)} at ${y.name} ${v} ${y.unit}`,
+      values: grid.means[i],
+    })),
+  ];
   const shell = figure({
-    title: labelled(of.name, of.unit), names: [], note: [meansNote(grid), 'Fields without a colour have no case that is done.'].filter(Boolean).join(' '),
-    draw: () => {}, canvas: () => drawn.canvas, reset: () => drawn.reset(), csv: () => csvOf(columns),
+    title: labelled(of.name, of.unit),
+    names: [],
+    note: [meansNote(grid), 'Fields without a colour have no case that is done.'].filter(Boolean).join(' '),
+    draw: () => {},
+    canvas: () => drawn.canvas,
+    reset: () => drawn.reset(),
+    csv: () => csvOf(columns),
   });
-  const nearest = (all, v) => all.reduce((best, one, i) => (Math.abs(one - v) < Math.abs(all[best] - v) ? i : best), 0);
+  const nearest = (all, v) =>
+    all.reduce((best, one, i) => (Math.abs(one - v) < Math.abs(all[best] - v) ? i : best), 0);
   queueMicrotask(() => {
     drawn = plane(shell.place, {
       height: 380,
-      read: () => ({ x: { label: labelled(x.name, x.unit), range: [bx[0], bx[bx.length - 1]] }, y: { label: labelled(y.name, y.unit), range: [by[0], by[by.length - 1]] } }),
-      paint: (pen, at) => grid.means.forEach((row, j) => row.forEach((v, i) => {
-        if (!Number.isFinite(v)) return;
-        pen.fillStyle = onScale(share(v));
-        const left = at.x(bx[i]), top = at.y(by[j + 1]);
-        pen.fillRect(left, top, at.x(bx[i + 1]) - left + 0.5, at.y(by[j]) - top + 0.5);
-      })),
+      read: () => ({
+        x: { label: labelled(x.name, x.unit), range: [bx[0], bx[bx.length - 1]] },
+        y: { label: labelled(y.name, y.unit), range: [by[0], by[by.length - 1]] },
+      }),
+      paint: (pen, at) =>
+        grid.means.forEach((row, j) =>
+          row.forEach((v, i) => {
+            if (!Number.isFinite(v)) return;
+            pen.fillStyle = onScale(share(v));
+            const left = at.x(bx[i]),
+              top = at.y(by[j + 1]);
+            pen.fillRect(left, top, at.x(bx[i + 1]) - left + 0.5, at.y(by[j]) - top + 0.5);
+          }),
+        ),
       tell: (px, py) => {
-        const i = nearest(grid.xs, px), j = nearest(grid.ys, py);
-        return `${x.name} ${format(grid.xs[i])} ${x.unit}, ${y.name} ${format(grid.ys[j])} ${y.unit}: ${format(grid.means[j][i])} ${of.unit}`;
+        const i = nearest(grid.xs, px),
+          j = nearest(grid.ys, py);
+        const told = (axis, value) => `${axis.name} ${format(value)} ${axis.unit}`;
+        return `${told(x, grid.xs[i])}, ${told(y, grid.ys[j])}: ${format(grid.means[j][i])} ${of.unit}`;
       },
     });
     drawn.draw();
@@ -99,16 +182,51 @@ function mapFigure(sweep, of, x, y) {
 
 function scaleBar(low, high, unit) {
   const stops = [...Array(11).keys()].map((i) => onScale(i / 10)).join(',');
-  return h('div', { class: 'scalebar' }, h('span', { class: 'ramp', style: `background:linear-gradient(to right,${stops});border-color:${styled('--grid')}` }),
-    h('div', { class: 'marks' }, (high > low ? [low, ...ticksOf(low, high, 3).filter((v) => v > low && v < high), high] : [low]).map((v) => h('span', {}, `${format(v, 3)} ${unit}`))));
+  return h(
+    'div',
+    { class: 'scalebar' },
+    h('span', {
+      class: 'ramp',
+      style: `background:linear-gradient(to right,${stops});border-color:${styled('--grid')}`,
+    }),
+    h(
+      'div',
+      { class: 'marks' },
+      (high > low ? [low, ...ticksOf(low, high, 3).filter((v) => v > low && v < high), high] : [low]).map((v) =>
+        h('span', {}, `${format(v, 3)} ${unit}`),
+      ),
+    ),
+  );
 }
 
 const MOST_ROWS = 500;
 
 /** Every case with its axes and outputs. */
 export function casesTable(sweep) {
-  const head = ['Case', ...sweep.axes.map((a) => labelled(a.name, a.unit)), 'State', ...sweep.outputs.map((o) => labelled(o.name, o.unit))];
-  const rows = sweep.number.slice(0, MOST_ROWS).map((n, i) => [String(n), ...sweep.axes.map((a) => (typeof a.values[i] === 'number' ? format(a.values[i]) : a.values[i] ?? '')), sweep.state[i],
-    ...sweep.outputs.map((o) => format(o.values[i]))]);
-  return h('div', {}, table(head, rows, 'Cases'), sweep.number.length > MOST_ROWS ? h('p', { class: 'note' }, `The first ${MOST_ROWS} of ${sweep.number.length} cases; table.csv of the sweep has all.`) : null);
+  const head = [
+    'Case',
+    ...sweep.axes.map((a) => labelled(a.name, a.unit)),
+    'State',
+    ...sweep.outputs.map((o) => labelled(o.name, o.unit)),
+  ];
+  const rows = sweep.number
+    .slice(0, MOST_ROWS)
+    .map((n, i) => [
+      String(n),
+      ...sweep.axes.map((a) => (typeof a.values[i] === 'number' ? format(a.values[i]) : (a.values[i] ?? ''))),
+      sweep.state[i],
+      ...sweep.outputs.map((o) => format(o.values[i])),
+    ]);
+  return h(
+    'div',
+    {},
+    table(head, rows, 'Cases'),
+    sweep.number.length > MOST_ROWS
+      ? h(
+          'p',
+          { class: 'note' },
+          `The first ${MOST_ROWS} of ${sweep.number.length} cases; table.csv of the sweep has all.`,
+        )
+      : null,
+  );
 }

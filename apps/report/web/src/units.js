@@ -2,11 +2,16 @@
 import { settings } from './settings.js';
 
 const FOOT = 0.3048; // m, exact
-const PREFIXES = [[1e9, 'G'], [1e6, 'M'], [1e3, 'k']];
+const PREFIXES = [
+  [1e9, 'G'],
+  [1e6, 'M'],
+  [1e3, 'k'],
+];
 
 /** @returns {string} a unit as it is printed: m^2/Hz becomes m²/Hz */
 export function printed(unit) {
-  return unit.replace(/\^(-?\d)/g, (_, d) => [...d].map((c) => ({ '-': '⁻' })[c] ?? '⁰¹²³⁴⁵⁶⁷⁸⁹'[c]).join(''))
+  return unit
+    .replace(/\^(-?\d)/g, (_, d) => [...d].map((c) => ({ '-': '⁻' })[c] ?? '⁰¹²³⁴⁵⁶⁷⁸⁹'[c]).join(''))
     .replaceAll(' ', '·');
 }
 
@@ -30,8 +35,8 @@ function chosen(unit) {
 }
 
 /**
- * How numbers of a unit are shown. Lengths alone follow the choice between m and ft: a unit with N, J, W, Pa or kg stays SI
- * and gets a prefix by the size of its numbers.
+ * How numbers of a unit are shown. Lengths alone follow the choice between m and ft: a unit with N, J, W, Pa or kg
+ * stays SI and gets a prefix by the size of its numbers.
  * @param {string} unit SI
  * @param {number} [largest] absolute, of the numbers that are shown together
  * @returns {{factor: number, unit: string}} numbers times factor are in the unit
@@ -59,8 +64,13 @@ export function format(value, digits = 4) {
   if (value === null || value === undefined || Number.isNaN(value)) return '–';
   if (value === 0) return '0';
   const size = Math.abs(value);
-  const text = size >= 1e6 || size < 1e-4 ? value.toExponential(digits - 1) : String(Number(value.toPrecision(digits)));
-  return text.replace(/e([+-])(\d+)/, (_, s, p) => `·10${s === '-' ? '⁻' : ''}${[...p].map((c) => '⁰¹²³⁴⁵⁶⁷⁸⁹'[c]).join('')}`)
+  const text =
+    size >= 1e6 || size < 1e-4 ? value.toExponential(digits - 1) : String(Number(value.toPrecision(digits)));
+  return text
+    .replace(/e([+-])(\d+)/, (_, sign, power) => {
+      const raised = [...power].map((c) => '⁰¹²³⁴⁵⁶⁷⁸⁹'[c]).join('');
+      return `·10${sign === '-' ? '⁻' : ''}${raised}`;
+    })
     .replace('-', '−');
 }
 
