@@ -12,6 +12,7 @@
 #include "compile/integrator.hpp"
 #include "compile/members.hpp"
 #include "compile/waves.hpp"
+#include "hydro/base/machine.hpp"
 
 namespace froude {
 namespace {
@@ -208,6 +209,7 @@ Plan plan(const scene::Scene& scene, const std::shared_ptr<compile::Kept>& kept)
   if (scene.ask_modes) out.sections.push_back(plan_modes(prepared));
   if (scene.run) out.sections.push_back(plan_run(scene, prepared, out.notes));
   if (scene.ask_waves) out.sections.push_back(plan_waves(scene));
+  out.sections.push_back({"this machine:", {{"inner loops", hydro::instructions_of_loops(), {}}}});
   if (scene.bodies.empty()) return out;
   Section left_out{"left out, at no cost:", {}};
   add_absent(scene, prepared, left_out.lines);
