@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "hydro/base/error.hpp"
 
@@ -67,6 +68,35 @@ std::vector<ContourPiece> contour(const Field& field, double level) {
       add_triangle({low, corner(i + 1, j), high}, level, out);
       add_triangle({low, corner(i, j + 1), high}, level, out);
     }
+  return out;
+}
+
+std::vector<ContourLine> joined(std::vector<ContourPiece> pieces) {
+  std::vector<ContourLine> out;
+  // On from the last point of a line as far as pieces go.
+  const auto extend = [&](ContourLine& line) {
+    for (;;) {
+      const double x = line.x.back(), y = line.y.back();
+      const auto next = std::find_if(pieces.begin(), pieces.end(), [&](const ContourPiece& p) {
+        return (p.x1 == x && p.y1 == y) || (p.x2 == x && p.y2 == y);
+      });
+      if (next == pieces.end()) return;
+      const bool forwards = next->x1 == x && next->y1 == y;
+      line.x.push_back(forwards ? next->x2 : next->x1);
+      line.y.push_back(forwards ? next->y2 : next->y1);
+      pieces.erase(next);
+    }
+  };
+  while (!pieces.empty()) {
+    const ContourPiece first = pieces.back();
+    pieces.pop_back();
+    ContourLine line{{first.x1, first.x2}, {first.y1, first.y2}};
+    extend(line);
+    std::reverse(line.x.begin(), line.x.end());
+    std::reverse(line.y.begin(), line.y.end());
+    extend(line);
+    out.push_back(std::move(line));
+  }
   return out;
 }
 

@@ -25,6 +25,14 @@ struct ContourPiece {
 /// near points whose value is not finite.
 std::vector<ContourPiece> contour(const Field& field, double level);
 
+/// A line from point to point.
+struct ContourLine {
+  std::vector<double> x, y;
+};
+/// Pieces whose ends meet, to the bit as those of contour() do, one after the other; a line that closes ends where it
+/// begins. One through a point of the grid may be cut there. Quadratic in the number of pieces.
+std::vector<ContourLine> joined(std::vector<ContourPiece> pieces);
+
 /// From dark and low, 0, to light and high, 1, with even steps of lightness: "#2a788e".
 std::string colour_at(double share);
 

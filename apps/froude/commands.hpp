@@ -240,6 +240,7 @@ struct StabilityArguments : SceneArguments {
   std::string check = {};        ///< "time": some cells by runs; empty: none
   int check_cells = 6;           ///< spread over the map
   double check_duration = 2400;  ///< s, of each: what grows by a per cent a period shows after some hundred periods
+  std::optional<Path> boundaries = {};  ///< .csv
 };
 void stability(const StabilityArguments& arguments, const Console& console);
 void run(const SceneArguments& arguments, const Console& console);

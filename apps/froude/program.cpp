@@ -103,6 +103,8 @@ void add_stability(CLI::App& app, Request& request) {
   auto duration = std::make_shared<std::string>("2400 s");
   command->add_option("scene", arguments->scene, "scene file (.toml)")->required();
   add_scene_outputs(*command, "stability", *arguments);
+  command->add_option("--boundaries", arguments->boundaries,
+                      "both boundaries as a CSV table of points, to be drawn upon other pictures");
   command
       ->add_option("--check", arguments->check,
                    "time: step some cells from rest, and tell whether the map has them right")

@@ -1,6 +1,9 @@
 #pragma once
 /// \file  Private to the commands that answer scenes: what they share in naming results.
+#include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "froude/commands.hpp"
 #include "froude/report.hpp"
@@ -10,8 +13,9 @@
 namespace froude {
 
 /// The path of the result asked for, or the scene's name with `ending` in the current folder. All that the command will
-/// write is checked before it computes (outputs.hpp). \throws hydro::InputError
-Path checked_output(const SceneArguments& arguments, const std::string& ending);
+/// write is checked before it computes (outputs.hpp), `tables` of options of its own too. \throws hydro::InputError
+Path checked_output(const SceneArguments& arguments, const std::string& ending,
+                    const std::vector<std::pair<std::string, std::optional<Path>>>& tables = {});
 
 /// \throws hydro::InputError if the scene does not ask for this, saying how to
 void require_asked(bool asked, const scene::Scene& scene, const std::string& what, const std::string& example);

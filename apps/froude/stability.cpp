@@ -18,6 +18,7 @@
 #include "froude/report.hpp"
 #include "froude/scene_result.hpp"
 #include "hydro/base/error.hpp"
+#include "hydro/io/atomic_file.hpp"
 #include "hydro/io/csv.hpp"
 
 namespace froude {
@@ -222,17 +223,51 @@ plot::Field field(const StabilityMap& map, plot::Axis value, const std::vector<d
   return out;
 }
 
-/// Where the largest multiplier is 1, as pieces of a line.
-plot::Series floquet_boundary(const StabilityMap& map) {
+/// Where the largest multiplier is 1.
+std::vector<plot::ContourLine> floquet_lines(const StabilityMap& map) {
   std::vector<double> multiplier;
   for (const Cell& c : map.cells) multiplier.push_back(c.multiplier);
+  return plot::joined(plot::contour(field(map, {}, multiplier), 1));
+}
+plot::Series floquet_boundary(const StabilityMap& map) {
   plot::Series out{.name = "|multiplier| = 1", .x = {}, .y = {}, .colour = red};
-  constexpr double nowhere = std::numeric_limits<double>::quiet_NaN();  // lifts the pen
-  for (const auto& piece : plot::contour(field(map, {}, multiplier), 1)) {
-    out.x.insert(out.x.end(), {piece.x1, piece.x2, nowhere});
-    out.y.insert(out.y.end(), {piece.y1, piece.y2, nowhere});
+  for (plot::ContourLine& line : floquet_lines(map)) {
+    for (auto* along : {&line.x, &line.y}) along->push_back(std::numeric_limits<double>::quiet_NaN());  // lifts the pen
+    out.x.insert(out.x.end(), line.x.begin(), line.x.end());
+    out.y.insert(out.y.end(), line.y.begin(), line.y.end());
   }
   return out;
+}
+/// Over the periods at which a motion grows, one line for each row of neighbours.
+std::vector<plot::ContourLine> mathieu_lines(const StabilityMap& map) {
+  std::vector<plot::ContourLine> out;
+  for (std::size_t p = 0; p < map.period.size(); ++p) {
+    if (!std::isfinite(map.mathieu[p])) continue;
+    if (p == 0 || !std::isfinite(map.mathieu[p - 1])) out.emplace_back();
+    out.back().x.push_back(map.period[p]);
+    out.back().y.push_back(map.mathieu[p]);
+  }
+  return out;
+}
+
+/// Both boundaries as points from end to end, for other pictures: lines of one and of the other in turn, so that where
+/// the name changes a line ends. What is left of either has numbers: "Floquet 3".
+void write_boundaries(const Path& path, const StabilityMap& map) {
+  std::string last, out =
+                        "# Where motions of the period of the waves begin to grow: by Floquet's multipliers of the "
+                        "whole model, and by\n"
+                        "# Mathieu's equation of each free motion (froude stability)\nboundary,period [s],height [m]\n";
+  const std::vector<std::pair<std::string, std::vector<plot::ContourLine>>> both = {{"Floquet", floquet_lines(map)},
+                                                                                    {"Mathieu", mathieu_lines(map)}};
+  for (std::size_t l = 0; l < std::max(both[0].second.size(), both[1].second.size()); ++l)
+    for (const auto& [boundary, lines] : both) {
+      if (l >= lines.size()) continue;
+      const std::string name = boundary == last ? fmt::format("{} {}", boundary, l + 1) : boundary;
+      for (std::size_t i = 0; i < lines[l].x.size(); ++i)
+        out += fmt::format("{},{:.6g},{:.6g}\n", name, lines[l].x[i], lines[l].y[i]);
+      last = name;
+    }
+  hydro::io::write_atomically(path, out);
 }
 
 /// Marks in the cells of one fate; "none found" is one too, waves beyond breaking are left empty, and jumps are marked
@@ -296,11 +331,11 @@ plot::Panel panel_of(const Branch& branch, const Signal& signal) {
   return {.x = x, .y = {signal.name + ", std. dev.", signal.units}, .series = {std::move(lasting), std::move(other)}};
 }
 
-bool can_be_drawn(const scene::AskStability& asked) { return asked.periods.size() > 1 && asked.heights.size() > 1; }
+bool is_map(const scene::AskStability& asked) { return asked.periods.size() > 1 && asked.heights.size() > 1; }
 
 plot::Figure figure(const scene::Scene& scene, const StabilityMap& map) {
   plot::Figure out{.title = scene.title.empty() ? "Periodic motions" : scene.title, .panels = {}};
-  if (can_be_drawn(*scene.stability)) out.panels = panels_of_map(map);
+  if (is_map(*scene.stability)) out.panels = panels_of_map(map);
   for (const Branch& branch : map.branches)
     for (const Signal& signal : branch.signals)
       if (!branch.points.empty()) out.panels.push_back(panel_of(branch, signal));
@@ -313,14 +348,18 @@ void stability(const StabilityArguments& arguments, const Console& console) {
   const scene::Scene scene = scene::read(arguments.scene);
   require_asked(scene.stability.has_value(), scene, "stability map",
                 "stability = { periods = \"5 s .. 15 s, 21 values\", heights = \"0.5 m .. 4 m, 8 values\" }");
-  if (arguments.picture && !can_be_drawn(*scene.stability) && scene.stability->branches.empty())
+  if (arguments.picture && !is_map(*scene.stability) && scene.stability->branches.empty())
     throw hydro::InputError("a picture of the map needs two periods and two heights, or a branch",
                             scene.stability->place, "ask for more of them, or leave --picture out");
-  const Path file = checked_output(arguments, ".stability.h5");
+  if (arguments.boundaries && !is_map(*scene.stability))
+    throw hydro::InputError("boundaries need two periods and two heights", scene.stability->place,
+                            "ask for more of them, or leave --boundaries out");
+  const Path file = checked_output(arguments, ".stability.h5", {{"--boundaries", arguments.boundaries}});
   Progress progress(console.err, "stability", console.show_progress);
   const StabilityMap map = stability(scene, [&](double done) { progress.update(done); });
   map.write(file);
   if (arguments.csv) write_csv(*arguments.csv, map);
+  if (arguments.boundaries) write_boundaries(*arguments.boundaries, map);
   if (arguments.picture) plot::write_picture(*arguments.picture, figure(scene, map));
   Report report = report_of(scene, map, file);
   if (!arguments.check.empty()) {

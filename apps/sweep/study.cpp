@@ -12,6 +12,7 @@
 #include "scene/build.hpp"
 #include "scene/placed.hpp"
 #include "sweep/numbers.hpp"
+#include "sweep/overlay.hpp"
 
 namespace froude::sweep {
 namespace {
@@ -144,6 +145,19 @@ Binding<Output> output_binding() {
       .place(&Output::place);
 }
 
+Binding<Overlay> overlay_binding() {
+  return Binding<Overlay>("[[picture.upon]]", "a table drawn upon the picture, as of another source")
+      .key(text("file", "CSV, its columns headed by name and unit, beside this one"), &Overlay::file)
+      .key(text("x", "its column along the axis x of the picture"), &Overlay::x)
+      .key(text("y", "its column along the other"), &Overlay::y)
+      .optional(text("by",
+                     "its column of which each text or number has a curve, and stands in the legend; left out: "
+                     "one curve, under the name of the file"),
+                &Overlay::by)
+      .words(text("as", "\"marks\", or \"line\" from row to row").or_default("marks", "as points are published"),
+             Words<bool>{{"marks", false}, {"line", true}}, &Overlay::line);
+}
+
 Binding<Picture> picture_binding() {
   return Binding<Picture>(
              "[[picture]]",
@@ -154,6 +168,8 @@ Binding<Picture> picture_binding() {
       .key(text("x", "axis"), &Picture::x)
       .optional(text("y", "axis: a map with contours"), &Picture::y)
       .optional(text("by", "axis: a curve for each of its values"), &Picture::by)
+      .tables("upon", overlay_binding(), &Picture::overlays)
+      .optional()
       .at_most_one_of({"y", "by"});
 }
 
@@ -233,6 +249,7 @@ void check_pictures(const Study& study) {
     for (const auto* axis : {&picture.y, &picture.by})
       if (*axis) require_axis(study, **axis);
     require_axis(study, picture.x);
+    check_overlays(picture);
   }
 }
 

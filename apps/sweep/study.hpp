@@ -50,11 +50,20 @@ struct Output {
   Place place;
 };
 
+/// A table that is drawn upon a picture.
+struct Overlay {
+  Located<std::filesystem::path> file;  ///< absolute
+  std::string x, y;                     ///< its columns
+  std::optional<std::string> by;        ///< a column, each text or number of which has a curve
+  bool line = false;                    ///< else marks
+};
+
 /// A curve or map of an output, and its table beside it.
 struct Picture {
   Located<std::string> file;  ///< a name in the folder of the sweep
   Located<std::string> of, x;
   std::optional<Located<std::string>> y, by;  ///< of a map its second axis; of curves what tells them apart
+  std::vector<Overlay> overlays;
 };
 
 struct Study {

@@ -11,6 +11,7 @@
 #include "answers/picture.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/io/atomic_file.hpp"
+#include "sweep/overlay.hpp"
 
 namespace froude::sweep {
 namespace {
@@ -128,17 +129,17 @@ std::string title_of(const Study& study, const Grid& grid) {
 
 plot::Figure map_of(const Study& study, const Picture& picture, const Grid& grid, const Columns& columns) {
   const Column& of = columns.of_output(columns.output(picture.of));
-  plot::Panel panel{.x = axis_of(columns.of_axis(picture.x.value)),
-                    .y = axis_of(columns.of_axis(picture.y->value)),
-                    .series = {},
+  const Column &x = columns.of_axis(picture.x.value), &y = columns.of_axis(picture.y->value);
+  plot::Panel panel{.x = axis_of(x),
+                    .y = axis_of(y),
+                    .series = overlays_of(picture, x, y),
                     .field = plot::Field{axis_of(of), numbers(grid.xs), numbers(grid.ys), grid.of}};
   return {.title = title_of(study, grid), .panels = {panel}, .panel_height = 420};
 }
 
 plot::Figure curves_of(const Study& study, const Picture& picture, const Grid& grid, const Columns& columns) {
-  plot::Panel panel{.x = axis_of(columns.of_axis(picture.x.value)),
-                    .y = axis_of(columns.of_output(columns.output(picture.of))),
-                    .series = {}};
+  const Column &x = columns.of_axis(picture.x.value), &y = columns.of_output(columns.output(picture.of));
+  plot::Panel panel{.x = axis_of(x), .y = axis_of(y), .series = {}};
   for (std::size_t k = 0; k < grid.ys.size(); ++k) {
     std::string name;
     if (picture.by) {
@@ -148,6 +149,7 @@ plot::Figure curves_of(const Study& study, const Picture& picture, const Grid& g
     }
     panel.series.push_back({.name = name, .x = numbers(grid.xs), .y = grid.of[k], .marks = true});
   }
+  for (plot::Series& upon : overlays_of(picture, x, y)) panel.series.push_back(std::move(upon));
   return {.title = title_of(study, grid), .panels = {panel}};
 }
 

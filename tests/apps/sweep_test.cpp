@@ -467,5 +467,22 @@ TEST(Contours, LeaveOutWhatIsNotKnown) {
   for (const auto& p : froude::plot::contour(field, 1.5)) EXPECT_LE(p.y1, p.x1 - 1 + 1e-14);
 }
 
+TEST(Contours, AreOneLineWhereTheirPiecesMeet) {
+  froude::plot::Field field{{"z"}, {}, {}, {}};
+  for (int i = -10; i <= 10; ++i) field.xs.push_back(0.1 * i), field.ys.push_back(0.1 * i);
+  for (const double y : field.ys) {
+    field.values.emplace_back();
+    for (const double x : field.xs) field.values.back().push_back(x * x + y * y);
+  }
+  const auto circle = froude::plot::joined(froude::plot::contour(field, 0.52));  // through no point of the grid
+  ASSERT_EQ(circle.size(), 1u);                                                  // it closes
+  EXPECT_EQ(circle[0].x.front(), circle[0].x.back());
+  EXPECT_EQ(circle[0].y.front(), circle[0].y.back());
+  for (std::size_t i = 0; i < circle[0].x.size();
+       ++i)  // straight lines between neighbours: a chord of 0.14 leaves 0.0025
+    EXPECT_NEAR(std::hypot(circle[0].x[i], circle[0].y[i]), std::sqrt(0.52), 4e-3);
+  EXPECT_EQ(froude::plot::joined(froude::plot::contour(field, 1.5)).size(), 4u);  // one across each corner
+}
+
 }  // namespace
 }  // namespace froude_test::sweep_of_cases

@@ -33,9 +33,19 @@ class Stability(unittest.TestCase):
         # 7.5 s doubles at 2 m and 9 s does not, as runs of 2400 s have it (froude validate orszaghova-map).
         done = self.froude(self.asking('stability = { periods = "7.5 s .. 9 s, 2 values", heights = "2 m .. 2.5 m, 2 values", '
                                        'of = ["pivot.angle", "rack.stroke"] }'),
-                           "--json", "--check", "time", "--check-cells", "2", "--check-duration", "900 s")
+                           "--json", "--check", "time", "--check-cells", "2", "--check-duration", "900 s",
+                           "--boundaries", "edges.csv")
         self.assertEqual(done.returncode, 0, done.stderr)
         told = json.loads(done.stdout)
+        edges = [r for r in csv.reader(r for r in (self.folder / "edges.csv").read_text().splitlines() if r[0] != "#")]
+        self.assertEqual(edges[0], ["boundary", "period [s]", "height [m]"])
+        floquet = [(float(t), float(h)) for name, t, h in edges if name == "Floquet"]
+        self.assertEqual(sorted({floquet[0][1], floquet[-1][1]}), [2, 2.5])  # from the lower end of the map to the upper
+        self.assertTrue(all(7.5 < t < 9 for t, _ in floquet), floquet)
+        mathieu = [(float(t), float(h)) for name, t, h in edges if name == "Mathieu"]
+        self.assertEqual([t for t, _ in mathieu], [7.5, 9])
+        for (_, height), period in zip(mathieu, told["periods"]):
+            self.assertAlmostEqual(height, period["mathieu_height_m"], delta=1e-5)  # six digits are written
         fates = {p["period_s"]: [c["fate"] for c in p["cells"]] for p in told["periods"]}
         self.assertEqual(fates, {7.5: ["period-doubled"] * 2, 9.0: ["stable"] * 2})
         for period in told["periods"]:
@@ -98,6 +108,11 @@ class Stability(unittest.TestCase):
 
     def test_what_has_no_map_is_refused(self):
         one_period = ASKED.replace("6 s .. 9 s, 7 values", "7 s .. 7 s, 1 values").replace('branch = [{ height = "2 m" }], ', "")
+        (self.folder / "scene.toml").write_text(self.asking(one_period), encoding="utf-8")
+        done = subprocess.run([str(FROUDE), "stability", "scene.toml", "--boundaries", "edges.csv"], cwd=self.folder,
+                              capture_output=True, text=True, timeout=280)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("boundaries need two periods and two heights", done.stderr)
         for scene, words, line in (
                 (self.buoy.replace(ASKED, ""), "does not ask for a stability map", None),
                 (self.asking(ASKED.replace('"pivot.angle", "rack.stroke"', '"pivot.angel"')), 'did you mean "pivot.angle"?', ASKED),

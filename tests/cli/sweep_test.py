@@ -299,6 +299,25 @@ y = "start"
             self.write("study.toml", STUDY + picture.replace("p.svg", name))
             self.assertIn("no name of a picture", self.sweep("study.toml", "-o", ".", status=2).stderr)
 
+    def test_a_table_is_drawn_upon_a_picture(self):
+        self.write("points.csv", "source,mass [kg],motion [cm]\nmeasured,150,20\nmeasured,200,10\nbook,300,5\n")
+        picture = ('[[picture]]\nfile = "p.svg"\nof = "block.surge.range"\nx = "mass"\n'
+                   'upon = [{ file = "points.csv", x = "mass", y = "motion", by = "source" }]\n')
+        self.write("study.toml", STUDY + picture)
+        self.sweep("study.toml", "-o", "out")
+        drawn = (self.folder / "out" / "p.svg").read_text()
+        self.assertTrue(">measured<" in drawn and ">book<" in drawn, "the legend names both")
+        before = len((self.folder / "out" / "p.csv").read_text().splitlines())
+        self.assertEqual(before, 1 + 40)  # numbers beside the picture are those of the study alone
+        for old, new, said in (('"points.csv"', '"none.csv"', "study.toml:"), ('y = "motion"', 'y = "moton"', 'did you mean "motion"?'),
+                               ('y = "motion"', 'y = "source"', "points.csv:"), ('by = "source"', 'by = "sourc"', "points.csv:1")):
+            self.write("study.toml", STUDY + picture.replace(old, new))
+            told = self.sweep("study.toml", "-o", "other", status=2).stderr
+            self.assertIn(said, told)
+            self.assertFalse((self.folder / "other").exists(), "refused before the first case")
+        self.write("study.toml", STUDY + picture.replace('y = "motion"', 'y = "mass"'))
+        self.assertIn("points.csv:1", self.sweep("study.toml", "-o", "out", status=2).stderr)  # a mass is no length
+
     def test_wrong_commands_have_one_error_with_a_remedy(self):
         for arguments, said in ((["study.toml", "--part", "5/4"], "no part"), (["study.toml", "--threads", 0], "threads"),
                                 (["study.toml", "--case", 41], "there is no case 41"), ([], "which study"),

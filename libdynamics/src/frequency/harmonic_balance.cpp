@@ -116,11 +116,13 @@ struct Sampled {
   std::vector<PeriodicSample> at;
   Index memory_size = 0;  // m
 
-  Sampled(PeriodicSystem& system, const MatrixXd& Y, const Samples& samples) {
+  /// `sample`: how the system is asked, PeriodicSystem::at or roughly_at.
+  Sampled(PeriodicSystem& system, const MatrixXd& Y, const Samples& samples,
+          PeriodicSample (PeriodicSystem::*sample)(const CoordinateMotion&, const VectorXd&)) {
     const MatrixXd F = load(system, Y, samples);
     memory_size = F.rows();
     for (std::size_t j = 0; j < samples.count(); ++j)
-      at.push_back(system.at(samples[j].times(Y, samples.time(j)), F * samples[j].value));
+      at.push_back((system.*sample)(samples[j].times(Y, samples.time(j)), F * samples[j].value));
   }
 };
 
@@ -131,7 +133,7 @@ struct BalanceEquations {
 };
 
 BalanceEquations equations(PeriodicSystem& system, const MatrixXd& Y, const Samples& samples) {
-  const Sampled sampled(system, Y, samples);
+  const Sampled sampled(system, Y, samples, &PeriodicSystem::roughly_at);
   const Index n = Y.rows(), all = n * samples.columns(), m = sampled.memory_size;
   MatrixXd load_by_Y;
   if (m > 0) {
@@ -154,22 +156,60 @@ BalanceEquations equations(PeriodicSystem& system, const MatrixXd& Y, const Samp
   return {R, J};
 }
 
-/// The same, empty where the system has none, as bodies whose joints cannot be closed.
-std::optional<BalanceEquations> tried(PeriodicSystem& system, const MatrixXd& Y, const Samples& samples) {
+/// The residual alone.
+VectorXd residual(PeriodicSystem& system, const MatrixXd& Y, const Samples& samples) {
+  const MatrixXd F = load(system, Y, samples);
+  MatrixXd R = MatrixXd::Zero(Y.size(), 1);
+  for (std::size_t j = 0; j < samples.count(); ++j)
+    add_coefficients(samples.weight(j), system.residual_at(samples[j].times(Y, samples.time(j)), F * samples[j].value),
+                     R);
+  return R;
+}
+
+/// What `of` gives of a system and a motion, empty where there is none, as of bodies whose joints cannot be closed.
+template <class Of>
+auto tried(Of of, PeriodicSystem& system, const MatrixXd& Y, const Samples& samples)
+    -> std::optional<decltype(of(system, Y, samples))> {
   try {
-    return equations(system, Y, samples);
+    return of(system, Y, samples);
   } catch (const hydro::NumericsError&) {
     return std::nullopt;
   }
 }
 
-/// One solution at a number of harmonics: damped Newton. Empty: none, and `why`.
+/// Steps with the derivatives that a step of the length `last` was taken with: each is shorter than the one before by
+/// much the same share q, and what is left after one of length s is s q/(1 − q). True once that is rounding; false
+/// where q tells that the derivatives are to be taken anew. Y and r go on as far as steps are good.
+bool by_chords(PeriodicSystem& system, const hydro::dense::Lu& derivatives, double last, const Samples& samples,
+               MatrixXd& Y, VectorXd& r) {
+  constexpr double slowest = 0.3;
+  for (;;) {
+    const VectorXd step = derivatives.solve(-r);
+    const double length = step.norm(), q = length / last, rounding = 1e-9 * Y.norm();
+    if (!(q < slowest) && !(length <= rounding)) return false;
+    const MatrixXd next = Y + Eigen::Map<const MatrixXd>(step.data(), Y.rows(), Y.cols());
+    if (length <= rounding || length * q / (1 - q) <= rounding) {
+      Y = next;
+      return true;
+    }
+    auto left = tried(residual, system, next, samples);
+    if (!left) return false;
+    Y = next;
+    r = std::move(*left);
+    last = length;
+  }
+}
+
+/// One solution at a number of harmonics: damped Newton, whose derivatives serve as long as steps shrink by them.
+/// Empty: none, and `why`.
 std::optional<MatrixXd> solve(PeriodicSystem& system, MatrixXd Y, const Samples& samples, const BalanceOptions& options,
                               Balance& report) {
-  std::optional<BalanceEquations> e = tried(system, Y, samples);
-  for (int i = 0; e && i < options.iterations; ++i) {
+  for (int i = 0; i < options.iterations; ++i) {
     ++report.iterations;
-    const VectorXd step = hydro::dense::Lu(e->jacobian).solve(-e->residual);
+    const std::optional<BalanceEquations> e = tried(equations, system, Y, samples);
+    if (!e) break;
+    const hydro::dense::Lu derivatives(e->jacobian);
+    const VectorXd step = derivatives.solve(-e->residual);
     if (!step.allFinite()) break;
     const MatrixXd change = Eigen::Map<const MatrixXd>(step.data(), Y.rows(), Y.cols());
     // Newton's error is about the square of its last step, as shares of the motion; differences within the system leave
@@ -177,11 +217,13 @@ std::optional<MatrixXd> solve(PeriodicSystem& system, MatrixXd Y, const Samples&
     if (change.norm() <= std::max(1e-9, 0.01 * options.accuracy) * Y.norm() || step.norm() == 0)
       return MatrixXd(Y + change);
     double share = 1;
+    std::optional<VectorXd> left;
     for (const double before = e->residual.norm();; share /= 2) {
-      e = tried(system, Y + share * change, samples);
-      if ((e && e->residual.norm() < before) || share < 1e-3) break;
+      left = tried(residual, system, Y + share * change, samples);
+      if ((left && left->norm() < before) || share < 1e-3) break;
     }
     Y += share * change;
+    if (left && share == 1 && by_chords(system, derivatives, step.norm(), samples, Y, *left)) return Y;
   }
   report.why = fmt::format("Newton finds no motion of {:.6g} s with {} harmonics",
                            2 * std::numbers::pi / samples.omega(), samples.harmonics());
@@ -339,11 +381,15 @@ class Branch {
     const auto s = system(p.parameter);
     return equations(*s, p.Y, Samples(p.Y.cols() / 2, s->omega()));
   }
+  VectorXd residual_at(const Place& p) const {
+    const auto s = system(p.parameter);
+    return residual(*s, p.Y, Samples(p.Y.cols() / 2, s->omega()));
+  }
   Bordered bordered(const Place& p, const VectorXd& last_row) const {
     const BalanceEquations here = at(p);
     // Inwards, so that a family need not reach beyond its range.
     const double h = (std::abs(p.parameter - from_) < std::abs(p.parameter - to_) ? 1e-6 : -1e-6) * (to_ - from_);
-    const VectorXd by_parameter = (at({p.Y, p.parameter + h}).residual - here.residual) / h;
+    const VectorXd by_parameter = (residual_at({p.Y, p.parameter + h}) - here.residual) / h;
     const Index all = here.residual.size();
     Bordered out{MatrixXd(all + 1, all + 1), VectorXd::Zero(all + 1)};
     out.matrix.topLeftCorner(all, all) = size_ * here.jacobian;
@@ -427,15 +473,44 @@ FollowedBranch follow(const Family& family, double from, double to, PeriodicMoti
   return out;
 }
 
+namespace {
+
+/// 1, cos θ, sin θ, cos 2θ, …, (2H + 1), each from the one before: rounding grows as H.
+VectorXd harmonics_at(Index H, double theta) {
+  VectorXd out(2 * H + 1);
+  const double c = std::cos(theta), s = std::sin(theta);
+  double x = 1, y = 0;
+  out[0] = 1;
+  for (Index h = 1; h <= H; ++h) {
+    const double turned = x * c - y * s;
+    y = x * s + y * c;
+    x = turned;
+    out.segment<2>(2 * h - 1) << x, y;
+  }
+  return out;
+}
+
+/// The harmonics up to the last that is more than rounding.
+MatrixXd audible(const MatrixXd& series) {
+  constexpr double rounding = 1e-14;
+  Index kept = series.cols();
+  const double least = rounding * series.norm();
+  while (kept > 1 && series.middleCols(kept - 2, 2).norm() <= least) kept -= 2;
+  return series.leftCols(kept);
+}
+
+}  // namespace
+
 // (Q12)
 Eigen::VectorXcd floquet_multipliers(PeriodicSystem& system, const PeriodicMotion& motion) {
   const Samples samples(motion.harmonics(), motion.omega);
-  const Sampled sampled(system, motion.coefficients, samples);
+  const Sampled sampled(system, motion.coefficients, samples, &PeriodicSystem::at);
   const PeriodicMemory* memory = system.memory();
   const Index n = system.size(), z = memory != nullptr ? memory->A.rows() : 0, m = z > 0 ? memory->B.cols() : 0,
               H = 2 * samples.harmonics() + 1;
   // What varies: δ̈ by (δ, δ̇, z), and below it w by (δ, δ̇). How the states z go on from w is the same at all times.
-  MatrixXd series = MatrixXd::Zero((n + m) * (2 * H + 1), 2 * n + z);
+  // Column k of the series: harmonic k of it, entry after entry.
+  MatrixXd series = MatrixXd::Zero((n + m) * (2 * n + z), 2 * H + 1);
   for (std::size_t j = 0; j < samples.count(); ++j) {
     const PeriodicSample& s = sampled.at[j];
     MatrixXd right(n, 2 * n + z), varying = MatrixXd::Zero(n + m, 2 * n + z);
@@ -446,22 +521,25 @@ Eigen::VectorXcd floquet_multipliers(PeriodicSystem& system, const PeriodicMotio
       varying.bottomLeftCorner(m, 2 * n) << s.velocity_by_value, s.velocity_by_rate;
     }
     varying.topRows(n) = -hydro::dense::PivotedQr(s.by_acceleration).solve(right);
-    const VectorXd weight =
-        Harmonics(H, samples.omega(), samples.time(j)).value * (2.0 / static_cast<double>(samples.count()));
-    for (Index k = 0; k <= 2 * H; ++k)
-      series.middleRows(k * (n + m), n + m) += (k == 0 ? 0.5 : 1) * weight[k] * varying;
+    VectorXd weight = harmonics_at(H, samples.omega() * samples.time(j)) * (2.0 / static_cast<double>(samples.count()));
+    weight[0] /= 2;
+    series += varying.reshaped() * weight.transpose();
   }
-  MatrixXd A = MatrixXd::Zero(2 * n + z, 2 * n + z);
-  A.block(0, n, n, n).setIdentity();
-  if (z > 0) A.bottomRightCorner(z, z) = memory->A;
-  const auto at = [&](double t) {
-    const MatrixXd now = value_of(Harmonics(H, motion.omega, t).value, series);
-    A.middleRows(n, n) = now.topRows(n);
-    if (z > 0) A.bottomLeftCorner(z, 2 * n) = memory->B * now.bottomLeftCorner(m, 2 * n);
-    return A;
+  const MatrixXd heard = audible(series);
+  PeriodicWithMemory disturbed{.at = {}, .A = MatrixXd(0, 0), .B = MatrixXd(0, 0)};
+  if (z > 0) disturbed.A = memory->A, disturbed.B = memory->B;
+  disturbed.at = [&](double t) {
+    const VectorXd entries = heard * harmonics_at(heard.cols() / 2, motion.omega * t);
+    const Eigen::Map<const MatrixXd> now(entries.data(), n + m, 2 * n + z);
+    PeriodicWithMemory::Varying out{MatrixXd::Zero(2 * n, 2 * n), MatrixXd::Zero(2 * n, z),
+                                    now.bottomLeftCorner(m, 2 * n)};
+    out.P.topRightCorner(n, n).setIdentity();
+    out.P.bottomRows(n) = now.topLeftCorner(n, 2 * n);
+    out.Q.bottomRows(n) = now.topRightCorner(n, z);
+    return out;
   };
   constexpr double tolerance = 1e-10;  // derivatives by differences leave 1e-9
-  return floquet_multipliers(at, 2 * std::numbers::pi / motion.omega, tolerance);
+  return floquet_multipliers(disturbed, 2 * std::numbers::pi / motion.omega, tolerance);
 }
 
 std::string name_of(Fate fate) {

@@ -169,11 +169,25 @@ VectorXd PeriodicModel::multipliers(const Bodies& b, const VectorXd& load) {
   return hydro::dense::PivotedQr(G.transpose()).solve(-residual(b, load));
 }
 
+VectorXd PeriodicModel::residual_at(const CoordinateMotion& motion, const VectorXd& load) {
+  const Bodies here = bodies(motion);
+  return here.by_coordinate.transpose() * residual(here, load);
+}
+
 PeriodicSample PeriodicModel::at(const CoordinateMotion& motion, const VectorXd& load) {
+  return sample(motion, load, true);
+}
+
+PeriodicSample PeriodicModel::roughly_at(const CoordinateMotion& motion, const VectorXd& load) {
+  return sample(motion, load, false);
+}
+
+PeriodicSample PeriodicModel::sample(const CoordinateMotion& motion, const VectorXd& load, bool central) {
   const Index n = size(), m = static_cast<Index>(radiating_.size());
   const Closed place = closed(motion.value, basis_ * motion.value);
   const Bodies here = moving(place, motion);
-  PeriodicSample out{.residual = here.by_coordinate.transpose() * residual(here, load),
+  const auto projected = [&](const Bodies& b) { return VectorXd(b.by_coordinate.transpose() * residual(b, load)); };
+  PeriodicSample out{.residual = projected(here),
                      .by_value = MatrixXd(n, n),
                      .by_rate = MatrixXd(n, n),
                      .by_acceleration = MatrixXd(n, n),
@@ -183,7 +197,6 @@ PeriodicSample PeriodicModel::at(const CoordinateMotion& motion, const VectorXd&
   for (Index k = 0; k < n; ++k)
     out.by_acceleration.col(k) =
         here.by_coordinate.transpose() * model_.mass_times(here.state, here.by_coordinate.col(k));
-  const auto projected = [&](const Bodies& b) { return VectorXd(b.by_coordinate.transpose() * residual(b, load)); };
   for (Index k = 0; k < n; ++k) {
     const auto beside = [&](double h) {
       CoordinateMotion moved = motion;
@@ -193,13 +206,13 @@ PeriodicSample PeriodicModel::at(const CoordinateMotion& motion, const VectorXd&
     const auto faster = [&](double h) {
       CoordinateMotion moved = motion;
       moved.rate[k] += h;
-      return moving(place, moved);
+      return projected(moving(place, moved));
     };
-    const double h = step_[k], rate = step_[k] * omega_;
-    const Bodies above = beside(h), below = beside(-h);
-    out.by_value.col(k) = (projected(above) - projected(below)) / (2 * h);
-    out.velocity_by_value.col(k) = (above.state.velocity - below.state.velocity)(radiating_) / (2 * h);
-    out.by_rate.col(k) = (projected(faster(rate)) - projected(faster(-rate))) / (2 * rate);
+    const double h = step_[k], rate = step_[k] * omega_, width = central ? 2 : 1;
+    const Bodies above = beside(h), below = central ? beside(-h) : here;
+    out.by_value.col(k) = (projected(above) - (central ? projected(below) : out.residual)) / (width * h);
+    out.velocity_by_value.col(k) = (above.state.velocity - below.state.velocity)(radiating_) / (width * h);
+    out.by_rate.col(k) = (faster(rate) - (central ? faster(-rate) : out.residual)) / (width * rate);
   }
   return out;
 }

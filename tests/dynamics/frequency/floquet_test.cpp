@@ -76,5 +76,55 @@ TEST(Floquet, NamesWhatIsWrong) {
               ThrowsMessage<hydro::InputError>(HasSubstr("square and finite, got 2 x 3")));
 }
 
+// An oscillator whose stiffness, coupling and velocity vary, with three states of a memory of which one is slow, one
+// turns and one is fast: the same matrix as that of the whole system, which has no structure.
+PeriodicWithMemory with_memory(double fast) {
+  PeriodicWithMemory out;
+  out.A = Eigen::MatrixXd{{-0.3, 0.8, 0}, {-0.8, -0.3, 0}, {0, 0, -fast}};
+  out.B = Eigen::MatrixXd{{1, 0.2}, {0, 0.7}, {2, -1}};
+  out.at = [](double t) {
+    return PeriodicWithMemory::Varying{Eigen::MatrixXd{{0, 1}, {-1 - 0.4 * std::cos(t), -0.1 - 0.05 * std::sin(2 * t)}},
+                                       Eigen::MatrixXd{{0, 0, 0}, {-0.3, 0.1 * std::cos(t), -0.2}},
+                                       Eigen::MatrixXd{{0.1 * std::sin(t), 1 + 0.3 * std::cos(2 * t)}, {0, 1}}};
+  };
+  return out;
+}
+PeriodicMatrix whole(const PeriodicWithMemory& system) {
+  return [system](double t) {
+    const auto now = system.at(t);
+    Eigen::MatrixXd out(5, 5);
+    out << now.P, now.Q, system.B * now.V, system.A;
+    return out;
+  };
+}
+
+TEST(Floquet, MemoryThatIsEliminatedLeavesTheMonodromyOfTheWhole) {
+  for (const double fast : {2.0, 300.0}) {  // beyond what collocation resolves, steps are still halved until it is told
+    const PeriodicWithMemory system = with_memory(fast);
+    const Eigen::MatrixXd expected = monodromy(whole(system), two_pi), found = monodromy(system, two_pi, 1e-10);
+    EXPECT_LT((found - expected).norm(), 1e-10 * expected.norm()) << fast;  // what was asked
+  }
+}
+
+TEST(Floquet, WithoutAMemoryCollocationIsTheExplicitPair) {
+  PeriodicWithMemory system = with_memory(1);
+  system.A = Eigen::MatrixXd(0, 0), system.B = Eigen::MatrixXd(0, 0);
+  const auto varying = system.at;
+  system.at = [&](double t) {
+    return PeriodicWithMemory::Varying{varying(t).P, Eigen::MatrixXd(2, 0), Eigen::MatrixXd(0, 2)};
+  };
+  const Eigen::MatrixXd expected = monodromy([&](double t) { return varying(t).P; }, two_pi);
+  EXPECT_LT((monodromy(system, two_pi, 1e-10) - expected).norm(), 1e-10 * expected.norm());
+}
+
+TEST(Floquet, OfAMemoryRefusesPeriodsAndTellsWhereStepsAreTooFew) {
+  const PeriodicWithMemory system = with_memory(1);
+  EXPECT_THAT([&] { monodromy(system, 0, 1e-10); },
+              ThrowsMessage<hydro::InputError>(HasSubstr("a period must be positive, got 0 s")));
+  // No doubles tell a change of 1e-17.
+  EXPECT_THAT([&] { monodromy(system, two_pi, 0); },
+              ThrowsMessage<hydro::NumericsError>(HasSubstr("4096 steps of a period of 6.28319 s do not tell")));
+}
+
 }  // namespace
 }  // namespace floquet_test

@@ -21,4 +21,21 @@ Eigen::MatrixXd monodromy(const PeriodicMatrix& a, double period_s, double toler
 /// tolerance where they are apart. \throws as monodromy()
 Eigen::VectorXcd floquet_multipliers(const PeriodicMatrix& a, double period_s, double tolerance = 1e-13);
 
+/// ẋ = P(t) x + Q(t) z, ż = A z + B V(t) x: a memory with states z, whose own equation does not vary, beside what does.
+struct PeriodicWithMemory {
+  struct Varying {
+    Eigen::MatrixXd P, Q, V;  ///< (n, n), (n, z), (m, n)
+  };
+  std::function<Varying(double t_s)> at;
+  Eigen::MatrixXd A, B;  ///< (z, z), (z, m); both empty without a memory
+};
+
+/// The same matrix, of (x, z), shape (n + z, n + z). By Gauss's collocation of order ten, in which the states of the
+/// memory are eliminated; steps are halved until the matrix changes by less than 32 times the tolerance of its norm,
+/// and the last is taken. Fast states of the memory cost no steps. \throws hydro::InputError unless T is finite and >
+/// 0; hydro::NumericsError if 4096 steps are too few, or a motion leaves the doubles
+Eigen::MatrixXd monodromy(const PeriodicWithMemory& system, double period_s, double tolerance);
+/// \throws as monodromy()
+Eigen::VectorXcd floquet_multipliers(const PeriodicWithMemory& system, double period_s, double tolerance);
+
 }  // namespace dynamics::frequency

@@ -39,6 +39,14 @@ class PeriodicSystem {
   virtual double omega() const = 0;       ///< rad/s: 2π over the period
   /// `load`: of the memory, (m).
   virtual PeriodicSample at(const CoordinateMotion& motion, const Eigen::VectorXd& load) = 0;
+  /// The same with derivatives that are good for a step of Newton alone, where these cost less.
+  virtual PeriodicSample roughly_at(const CoordinateMotion& motion, const Eigen::VectorXd& load) {
+    return at(motion, load);
+  }
+  /// The residual alone, where it costs less.
+  virtual Eigen::VectorXd residual_at(const CoordinateMotion& motion, const Eigen::VectorXd& load) {
+    return at(motion, load).residual;
+  }
   virtual const PeriodicMemory* memory() const { return nullptr; }
   /// w, (m).
   virtual Eigen::VectorXd memory_velocity(const CoordinateMotion&) { return {}; }

@@ -29,6 +29,8 @@ class PeriodicModel : public PeriodicSystem {
   Eigen::Index size() const override { return basis_.cols(); }
   double omega() const override { return omega_; }
   PeriodicSample at(const CoordinateMotion& motion, const Eigen::VectorXd& load) override;
+  PeriodicSample roughly_at(const CoordinateMotion& motion, const Eigen::VectorXd& load) override;
+  Eigen::VectorXd residual_at(const CoordinateMotion& motion, const Eigen::VectorXd& load) override;
   const PeriodicMemory* memory() const override { return radiating_.empty() ? nullptr : &memory_; }
   Eigen::VectorXd memory_velocity(const CoordinateMotion& motion) override;
 
@@ -62,6 +64,8 @@ class PeriodicModel : public PeriodicSystem {
   Closed closed(const Eigen::VectorXd& value, Eigen::VectorXd near) const;
   Bodies moving(const Closed& at, const CoordinateMotion& motion) const;
   Eigen::VectorXd residual(const Bodies& bodies, const Eigen::VectorXd& load);
+  /// Derivatives by differences to both sides, or to one with an error as their step.
+  PeriodicSample sample(const CoordinateMotion& motion, const Eigen::VectorXd& load, bool central);
 
   const Model& model_;
   State rest_;
