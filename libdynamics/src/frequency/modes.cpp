@@ -12,7 +12,7 @@ namespace dynamics::frequency {
 namespace {
 
 using Complex = std::complex<double>;
-constexpr double slowest = 1e-6;  // rad/s: two months
+constexpr double slowest_of_all = 1e-6;  // rad/s: two months
 
 /// Matrices of the free motions.
 class FreeMotions {
@@ -201,7 +201,7 @@ ModeList free_motions(const SmallMotions& about, const std::vector<PotentialGrou
   // Beyond either end of the tables the added mass no longer changes, so the roots there can be bounded.
   const double lightest = system.lightest(nodes.empty() ? 1 : nodes.back());
   const double stiffest = eigenvalues(system, 0).maxCoeff();
-  nodes.insert(nodes.begin(), slowest);
+  nodes.insert(nodes.begin(), slowest_of_all);
   if (lightest > 0) nodes.push_back(2 * std::max(nodes.back(), std::sqrt(std::max(0.0, stiffest) / lightest)));
   Eigen::VectorXd before = eigenvalues(system, nodes.front());
   for (std::size_t i = 1; i < nodes.size(); ++i) {
