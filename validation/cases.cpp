@@ -22,6 +22,7 @@ namespace floquet { Outcome outcome(const Folders& folders); }
 namespace formats { Outcome outcome(const Folders& folders); }
 namespace fpso_rao { Outcome outcome(const Folders& folders); }
 namespace hendriksen_waves { Outcome outcome(const Folders& folders); }
+namespace hull_array { Outcome outcome(const Folders& folders); }
 namespace hull_cylinder { Outcome outcome(const Folders& folders); }
 namespace hull_generated { Outcome outcome(const Folders& folders); }
 namespace hull_hulme { Outcome outcome(const Folders& folders); }
@@ -96,6 +97,7 @@ const std::vector<Case>& cases() {
       {"hulme", hulme::outcome, {"hulme_hemisphere"}},
       {"hull-hulme", hull_hulme::outcome, {"hulme_hemisphere"}},
       {"cylinder", cylinder::outcome},
+      {"hull-array", hull_array::outcome},
       {"hull-cylinder", hull_cylinder::outcome},
       {"hull-generated", hull_generated::outcome, {"generated-bem"}},
       {"two-pole", two_pole::outcome},

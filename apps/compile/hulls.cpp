@@ -68,8 +68,8 @@ class HullMeshes {
 
 void require_same_panels(const HullMesh& first, const HullMesh& other, const hydro::Place& place) {
   require_same_table("meshes", first, other, place);
-  if (other.tolerance != first.tolerance || other.lid != first.lid)
-    throw hydro::InputError("bodies of meshes state different mesh_tolerance or lid", place,
+  if (other.tolerance != first.tolerance || other.lid != first.lid || other.interaction != first.interaction)
+    throw hydro::InputError("bodies of meshes state different mesh_tolerance, lid or mesh_interaction", place,
                             "they are solved together: give all the same");
 }
 
@@ -92,6 +92,7 @@ HullRequest hull_request(const Scene& scene, const std::vector<int>& bodies) {
   if (r.headings.empty()) r.headings = headings_asked(scene);
   r.options.tolerance = tolerance_of(*first.mesh, scene);
   r.options.lid = first.mesh->lid;
+  r.options.interaction = first.mesh->interaction;
   return r;
 }
 
@@ -106,6 +107,7 @@ std::string key_of_hulls(const HullRequest& r, const hydro::Water& water) {
   out(r.options.tolerance);
   out(r.options.refined_frequencies);
   out(r.options.lid);
+  out(static_cast<int>(r.options.interaction));
   out.list(r.bodies, [](ArchiveWriter& to, const hp::HullBody& body) {
     to(body.name);
     to(body.reference_point);
@@ -156,10 +158,10 @@ Coefficients coefficients_of_hulls(const Scene& scene, const std::vector<int>& b
 
 std::string what_hulls_are_solved(const Scene& scene, const std::vector<int>& bodies) {
   const HullMesh& table = *hydrodynamics_of(scene, bodies.front()).mesh;
-  std::string out =
-      fmt::format("meshes {} {} {} {} {} | {} | {}", scene.water.density, scene.water.gravity,
-                  scene.water.depth.metres(), tolerance_of(table, scene), table.lid, fmt::join(table.omega, " "),
-                  fmt::join(table.headings.empty() ? headings_asked(scene) : table.headings, " "));
+  std::string out = fmt::format("meshes {} {} {} {} {} {} | {} | {}", scene.water.density, scene.water.gravity,
+                                scene.water.depth.metres(), tolerance_of(table, scene), table.lid,
+                                static_cast<int>(table.interaction), fmt::join(table.omega, " "),
+                                fmt::join(table.headings.empty() ? headings_asked(scene) : table.headings, " "));
   for (const int b : bodies) {
     const scene::Body& body = scene.bodies[static_cast<std::size_t>(b)];
     const HullMesh& mesh = *body.hydrodynamics->mesh;
@@ -171,14 +173,18 @@ std::string what_hulls_are_solved(const Scene& scene, const std::vector<int>& bo
 
 std::string size_of_hulls(const hp::Cost& c, std::size_t frequencies, std::size_t headings) {
   const std::string refined = c.refined_unknowns > 0 ? fmt::format(", {} in the refined mesh", c.refined_unknowns) : "";
-  return fmt::format("{} panels, {} frequencies, {} headings; {} x {} unknowns{}, {:.3g} MB, about {:.2g} s", c.panels,
-                     frequencies, headings, c.systems, c.unknowns, refined, std::ceil(c.bytes / 1e6),
+  const std::string kinds =
+      c.partial_waves > 0 ? fmt::format(" for each kind of hull, up to {} partial waves a hull", c.partial_waves) : "";
+  return fmt::format("{} panels, {} frequencies, {} headings; {} x {} unknowns{}{}, {:.3g} MB, about {:.2g} s",
+                     c.panels, frequencies, headings, c.systems, c.unknowns, refined, kinds, std::ceil(c.bytes / 1e6),
                      std::max(0.1, c.seconds));
 }
 
 std::string HullPlan::method() const {
   return kept_in ? fmt::format("panels, solved before and kept in {}", kept_in->string())
-                 : std::string("panels, the equations by elimination");
+         : cost.partial_waves > 0
+             ? std::string("panels, each kind of hull by elimination, and partial waves between hulls")
+             : std::string("panels, the equations by elimination");
 }
 
 std::string HullPlan::size() const {

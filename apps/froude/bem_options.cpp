@@ -159,6 +159,7 @@ void add_bem_convert(CLI::App& bem, Request& request) {
 struct HullTexts {
   std::string density, gravity = "9.81 m/s^2", depth, unit, frequencies, headings;
   std::vector<std::string> reference, cog;
+  std::string interaction = "automatic";
   double tolerance = 0;
   bool no_lid = false;
 };
@@ -198,6 +199,10 @@ void read_hulls(const HullTexts& texts, BemHullArguments& a) {
   if (!texts.headings.empty()) a.heading = hull_range("--headings", texts.headings, dim::angle);
   a.reference = hull_points("--reference", texts.reference, a.meshes.size());
   a.centre_of_gravity = hull_points("--cog", texts.cog, a.meshes.size());
+  using hydro::panels::Interaction;
+  a.options.interaction = texts.interaction == "panels"          ? Interaction::panels
+                          : texts.interaction == "partial-waves" ? Interaction::partial_waves
+                                                                 : Interaction::automatic;
   a.options.lid = !texts.no_lid;
   if (texts.tolerance > 0) a.options.tolerance = texts.tolerance;
 }
@@ -220,6 +225,13 @@ void add_hull_options(CLI::App& solve, HullTexts& texts, BemHullArguments& a) {
   solve.add_option(
       "--refine", a.options.refined_frequencies,
       "at how many frequencies panels are cut in four: to tell the error, or with --tolerance to begin with");
+  solve
+      .add_option(
+          "--interaction", texts.interaction,
+          "of several hulls: panels, all in one set of equations; partial-waves, each kind of hull once, for many "
+          "that stand apart; automatic, the quicker of those that serve")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"automatic", "panels", "partial-waves"}));
   solve.add_flag("--no-lid", texts.no_lid, "without panels on the water inside: irregular frequencies stay");
   solve.add_option("--threads", a.options.threads, "frequencies solved at a time; default: all processors");
 }

@@ -143,7 +143,18 @@ Binding<HullMesh> hull_mesh() {
                   "stay, for the doctor to find")
                  .or_default("panels", "a hull that pierces the surface has irregular frequencies")
                  .only_beside("mesh"),
-             {{"panels", true}, {"none", false}}, &HullMesh::lid);
+             {{"panels", true}, {"none", false}}, &HullMesh::lid)
+      .words(
+          text("mesh_interaction",
+               "\"panels\": all panels in one set of equations, hulls may be near; \"partial waves\": each kind of "
+               "hull is solved once, and the partial waves that it sends out and receives, for many hulls that stand "
+               "apart by more than the circles about them; \"automatic\": the quicker of those that serve")
+              .or_default("automatic", "the cost of both is estimated, and `froude plan` tells which is taken")
+              .only_beside("mesh"),
+          {{"automatic", hydro::panels::Interaction::automatic},
+           {"panels", hydro::panels::Interaction::panels},
+           {"partial waves", hydro::panels::Interaction::partial_waves}},
+          &HullMesh::interaction);
 }
 
 /// The keys of a mesh are read with all others of the table, and mean nothing without it.

@@ -33,6 +33,7 @@
 #include "hydro/base/types.hpp"
 #include "hydro/cylinders/layout.hpp"
 #include "hydro/hydrostatics/shapes.hpp"
+#include "hydro/panels/solve.hpp"
 #include "hydro/waves/kinematics/focus.hpp"
 #include "hydro/waves/kinematics/sea.hpp"
 
@@ -172,6 +173,7 @@ struct HullMesh {
   std::vector<double> omega, headings;  ///< as of Cylinders
   std::optional<double> tolerance;      ///< largest estimated error by panels; empty: the accuracy asked
   bool lid = true;                      ///< panels on the water inside
+  hydro::panels::Interaction interaction = hydro::panels::Interaction::automatic;
 };
 
 /// `[body.hydrodynamics.turning]`: excitation for the heading that a slow yaw leaves.

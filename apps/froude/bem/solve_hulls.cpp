@@ -47,6 +47,7 @@ void write_hulls(const hp::Solution& solution, CoefficientFormat format, const P
   out.sentences("left_out", "  left out or changed: {}", written.left_out);
   out.keep("panels", check.panels).keep("lid_panels", check.lid_panels);
   out.keep("planes_of_symmetry", check.planes_of_symmetry);
+  out.keep("kinds_of_hulls", check.kinds).keep("partial_waves", check.partial_waves);
   out.keep("self_check/energy", check.energy).keep("self_check/haskind", check.haskind);
   out.keep("self_check/reciprocity", check.reciprocity);
   out.keep("extrapolated_from_panels", check.extrapolated_from);

@@ -1,5 +1,6 @@
 #include "hydro/base/product.hpp"
 
+#include "hydro/base/error.hpp"
 #include "hydro/base/machine.hpp"
 #ifdef FROUDE_WIDE_PRODUCT
 #include "wide_product.hpp"
@@ -15,11 +16,21 @@ const char* instructions_of_loops() {
   return "those that the program was compiled for";
 }
 
+namespace {
+
+#ifdef FROUDE_WIDE_PRODUCT
+bool is_wide() {
+  static const bool wide = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+  return wide;
+}
+#endif
+
+}  // namespace
+
 Eigen::MatrixXd transposed_product(const Eigen::Ref<const Eigen::MatrixXd>& A,
                                    const Eigen::Ref<const Eigen::MatrixXd>& B) {
 #ifdef FROUDE_WIDE_PRODUCT
-  static const bool wide = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-  if (wide) {
+  if (is_wide()) {
     Eigen::MatrixXd out(A.cols(), B.cols());
     detail::wide_transposed_product({A.data(), A.rows(), A.cols(), A.outerStride()},
                                     {B.data(), B.rows(), B.cols(), B.outerStride()}, out.data());
@@ -27,6 +38,19 @@ Eigen::MatrixXd transposed_product(const Eigen::Ref<const Eigen::MatrixXd>& A,
   }
 #endif
   return A.transpose() * B;
+}
+
+void add_product(const Eigen::Ref<const Eigen::MatrixXcd>& A, const Eigen::Ref<const RowMajorXcd>& B,
+                 Eigen::Ref<RowMajorXcd> out) {
+  ensure(A.cols() == B.rows() && out.rows() == A.rows() && out.cols() == B.cols(), "shapes of a product agree");
+#ifdef FROUDE_WIDE_PRODUCT
+  if (is_wide()) {
+    detail::wide_add_product({A.data(), A.rows(), A.cols(), A.outerStride()},
+                             {B.data(), B.rows(), B.cols(), B.outerStride()}, {out.data(), out.outerStride()});
+    return;
+  }
+#endif
+  out.noalias() += A * B;
 }
 
 }  // namespace hydro

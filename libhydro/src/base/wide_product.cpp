@@ -16,4 +16,12 @@ void wide_transposed_product(const Numbers& A, const Numbers& B, double* out) {
   Eigen::Map<Eigen::MatrixXd>(out, A.columns, B.columns).noalias() = a.transpose() * b;
 }
 
+void wide_add_product(const ComplexNumbers& A, const ComplexNumbers& B, const ComplexSums& out) {
+  using Rows = Eigen::Matrix<std::complex<double>, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  using Stride = Eigen::OuterStride<>;
+  const Eigen::Map<const Eigen::MatrixXcd, Eigen::Unaligned, Stride> a(A.data, A.rows, A.columns, Stride(A.stride));
+  const Eigen::Map<const Rows, Eigen::Unaligned, Stride> b(B.data, B.rows, B.columns, Stride(B.stride));
+  Eigen::Map<Rows, Eigen::Unaligned, Stride>(out.data, A.rows, B.columns, Stride(out.stride)).noalias() += a * b;
+}
+
 }  // namespace hydro::detail

@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "hydro/base/error.hpp"
+#include "hydro/base/product.hpp"
 
 namespace hydro::cylinders {
 namespace {
@@ -151,8 +152,8 @@ Amplitudes Between::translated(const Amplitudes& b) const {
     for (std::size_t n = link.first; n < link.G->size(); ++n) {
       const MatrixXcd& G = (*link.G)[n];
       const int M = static_cast<int>(G.rows() / 2), mode = static_cast<int>(n);
-      a.middleRows(index_(link.to, mode, -M), G.rows()).noalias() +=
-          G * b.middleRows(index_(link.from, mode, -M), G.rows());
+      add_product(G, b.middleRows(index_(link.from, mode, -M), G.rows()),
+                  a.middleRows(index_(link.to, mode, -M), G.rows()));
     }
   return a;
 }

@@ -14,10 +14,14 @@ constexpr double least_depths = 8;  // … and 6e-5
 }  // namespace
 
 Water effective_water(const std::vector<CylinderBody>& bodies, const Water& water, double omega) {
-  if (!water.depth.is_infinite()) return water;
-  double size = 0, across = 0;
   std::vector<Cylinder> all;
   for (const CylinderBody& body : bodies) all.insert(all.end(), body.cylinders.begin(), body.cylinders.end());
+  return effective_water(all, water, omega);
+}
+
+Water effective_water(const std::vector<Cylinder>& all, const Water& water, double omega) {
+  if (!water.depth.is_infinite()) return water;
+  double size = 0, across = 0;
   for (const Cylinder& c : all) {
     size = std::max(size, c.radius + c.draught.value_or(0));
     for (const Cylinder& other : all) across = std::max(across, (c.centre - other.centre).norm());

@@ -9,5 +9,6 @@ namespace hydro::cylinders {
 /// `water` itself if its depth is finite; else with a depth so large that A, B and X are within 1e-4.
 /// \throws InputError if the frequency (rad/s; +∞ allowed) is so low that no such depth can be solved
 Water effective_water(const std::vector<CylinderBody>& bodies, const Water& water, double omega);
+Water effective_water(const std::vector<Cylinder>& cylinders, const Water& water, double omega);
 
 }  // namespace hydro::cylinders

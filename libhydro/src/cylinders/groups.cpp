@@ -6,6 +6,7 @@
 #include <set>
 
 #include "hydro/base/dense.hpp"
+#include "hydro/base/product.hpp"
 
 namespace hydro::cylinders {
 namespace {
@@ -79,6 +80,17 @@ Grouping grouped(const std::vector<Cylinder>& cylinders, const VerticalModes& mo
 
 }  // namespace
 
+double distance_across(const std::vector<Cylinder>& cylinders) {
+  double largest = 0;
+  for (const Cylinder& a : cylinders)
+    for (const Cylinder& b : cylinders) largest = std::max(largest, (a.centre - b.centre).norm());
+  return largest;
+}
+
+double expected_steps(const VerticalModes& modes, const std::vector<Cylinder>& cylinders) {
+  return 4 + 0.28 * modes.k * distance_across(cylinders);
+}
+
 std::string shape_of(const std::vector<std::size_t>& members, const std::vector<Cylinder>& cylinders,
                      const std::vector<std::size_t>& kind) {
   std::string shape;
@@ -141,8 +153,7 @@ Grouping choose_grouping(const std::vector<Cylinder>& cylinders, const std::vect
   return best;
 }
 
-Groups::Groups(std::vector<Cylinder> cylinders, const std::vector<std::size_t>& kind, const Lattice* lattice,
-               const std::vector<const Scatterer*>& scatterer, const VerticalModes& modes, Grouping grouping,
+Groups::Groups(std::vector<Cylinder> cylinders, const Lattice* lattice, const VerticalModes& modes, Grouping grouping,
                double precision)
     : cylinders_(std::move(cylinders)),
       lattice_(lattice),
@@ -151,6 +162,13 @@ Groups::Groups(std::vector<Cylinder> cylinders, const std::vector<std::size_t>& 
       index_(grouping_.between),
       precision_(precision) {
   groups_.members = grouping_.members;
+  for (const Cylinder& c : cylinders_) scale_.push_back(radial_scales(modes_, c.radius, grouping_.between));
+}
+
+Groups::Groups(std::vector<Cylinder> cylinders, const std::vector<std::size_t>& kind, const Lattice* lattice,
+               const std::vector<const Scatterer*>& scatterer, const VerticalModes& modes, Grouping grouping,
+               double precision)
+    : Groups(std::move(cylinders), lattice, modes, std::move(grouping), precision) {
   groups_.group_of.resize(cylinders_.size());
   std::map<std::string, std::shared_ptr<const Compound>> known;
   for (std::size_t g = 0; g < groups_.members.size(); ++g) {
@@ -168,7 +186,16 @@ Groups::Groups(std::vector<Cylinder> cylinders, const std::vector<std::size_t>& 
           std::make_shared<Compound>(Array(own, of_own, modes_, channels, precision).compound(grouping_.between));
     groups_.compound.push_back(compound);
   }
-  for (const Cylinder& c : cylinders_) scale_.push_back(radial_scales(modes_, c.radius, grouping_.between));
+}
+
+Groups::Groups(std::vector<Cylinder> cylinders, const std::vector<std::size_t>& kind, const Lattice* lattice,
+               const std::vector<std::shared_ptr<const Compound>>& compound, const VerticalModes& modes,
+               Grouping grouping, double precision)
+    : Groups(std::move(cylinders), lattice, modes, std::move(grouping), precision) {
+  for (std::size_t c = 0; c < cylinders_.size(); ++c) {
+    groups_.group_of.push_back(c);
+    groups_.compound.push_back(compound[kind[c]]);
+  }
 }
 
 Between Groups::between(const Lattice* lattice) const {
@@ -185,7 +212,8 @@ Amplitudes Groups::apply(MatrixXcd Compound::*part, const Amplitudes& x, Index r
     for (Index i = 0; i < size; ++i)
       of_group.middleRows(i * columns, columns) =
           x.middleRows(static_cast<Index>(members[static_cast<std::size_t>(i)]) * columns, columns);
-    const Amplitudes result = (*groups_.compound[g]).*part * of_group;
+    Amplitudes result = Amplitudes::Zero(rows * size, x.cols());
+    add_product((*groups_.compound[g]).*part, of_group, result);
     for (Index i = 0; i < size; ++i)
       y.middleRows(static_cast<Index>(members[static_cast<std::size_t>(i)]) * rows, rows) =
           result.middleRows(i * rows, rows);

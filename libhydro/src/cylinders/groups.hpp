@@ -23,6 +23,11 @@ struct Grouping {
   double work;               ///< estimate, complex multiplications
 };
 
+/// Of an iteration between groups: as seen, up to 100 cylinders.
+double expected_steps(const VerticalModes& modes, const std::vector<Cylinder>& cylinders);
+/// Between the axes of the farthest two.
+double distance_across(const std::vector<Cylinder>& cylinders);
+
 /// A group's shape: equal for groups that are copies of each other.
 std::string shape_of(const std::vector<std::size_t>& members, const std::vector<Cylinder>& cylinders,
                      const std::vector<std::size_t>& kind);
@@ -62,6 +67,11 @@ class Groups {
   Groups(std::vector<Cylinder> cylinders, const std::vector<std::size_t>& kind, const Lattice* lattice,
          const std::vector<const Scatterer*>& scatterer, const VerticalModes& modes, Grouping grouping,
          double precision);
+  /// Scatterers that are known as compounds, every one a group by itself: `compound[kind[i]]` belongs to cylinder i,
+  /// which is the circle outside of which its waves are.
+  Groups(std::vector<Cylinder> cylinders, const std::vector<std::size_t>& kind, const Lattice* lattice,
+         const std::vector<std::shared_ptr<const Compound>>& compound, const VerticalModes& modes, Grouping grouping,
+         double precision);
 
   int partial_waves() const { return grouping_.between.count(); }
   /// Potentials Z_0(z) e^{−ik(x cos β + y sin β)}, one a heading, and velocities (6 a cylinder, columns).
@@ -71,6 +81,9 @@ class Groups {
   Eigen::MatrixXcd far_field(const Eigen::MatrixXcd& sent_out, const std::vector<double>& angle) const;
 
  private:
+  /// Without compounds.
+  Groups(std::vector<Cylinder> cylinders, const Lattice* lattice, const VerticalModes& modes, Grouping grouping,
+         double precision);
   Eigen::MatrixXcd plane_waves(const std::vector<double>& heading) const;
   Between between(const Lattice* lattice) const;
   std::optional<Iterated> iterated(const Between& between, const Amplitudes& arriving) const;

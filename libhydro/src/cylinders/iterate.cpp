@@ -19,15 +19,16 @@ RowVectorXcd products(const Amplitudes& a, const Amplitudes& b) {
   return a.conjugate().cwiseProduct(b).colwise().sum();
 }
 
-/// Takes the basis out of w, twice for the sake of rounding. \return the coefficients of each column, (basis, columns)
+/// Takes the basis out of w, one vector after the other. What rounding leaves of it does no harm: the basis loses its
+/// right angles no sooner than the residual is as small as rounding allows (Paige, Rozložník & Strakoš 2006).
+/// \return the coefficients of each column, (basis, columns)
 MatrixXcd orthogonalise(const std::vector<Amplitudes>& basis, Amplitudes& w) {
-  MatrixXcd h = MatrixXcd::Zero(static_cast<Index>(basis.size()), w.cols());
-  for (int pass = 0; pass < 2; ++pass)
-    for (std::size_t i = 0; i < basis.size(); ++i) {
-      const RowVectorXcd part = products(basis[i], w);
-      w -= basis[i] * part.asDiagonal();
-      h.row(static_cast<Index>(i)) += part;
-    }
+  MatrixXcd h(static_cast<Index>(basis.size()), w.cols());
+  for (std::size_t i = 0; i < basis.size(); ++i) {
+    const RowVectorXcd part = products(basis[i], w);
+    w -= basis[i] * part.asDiagonal();
+    h.row(static_cast<Index>(i)) = part;
+  }
   return h;
 }
 

@@ -7,11 +7,12 @@
 #include <vector>
 
 #include "array.hpp"
+#include "hydro/base/product.hpp"
 
 namespace hydro::cylinders {
 
 /// Amplitudes of partial waves, one column for each thing that arrives or moves; a row is contiguous.
-using Amplitudes = Eigen::Matrix<std::complex<double>, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+using Amplitudes = RowMajorXcd;
 
 /// Every cylinder is one of a few kinds in one cell of rows × columns; cells may lack kinds.
 struct Lattice {

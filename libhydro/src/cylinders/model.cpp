@@ -41,25 +41,29 @@ void require_few(int terms, double omega) {
 /// Of sums over the depth; no kind of cylinder takes fewer.
 int terms_of_radius(double radius, double depth) { return count_of_terms(300 / radius * depth / pi); }
 
-double distance_across(const std::vector<Cylinder>& cylinders) {
-  double largest = 0;
-  for (const Cylinder& a : cylinders)
-    for (const Cylinder& b : cylinders) largest = std::max(largest, (a.centre - b.centre).norm());
-  return largest;
-}
+}  // namespace
 
-void require_coupling(double left_out, double omega) {
-  constexpr double most_left_out = 0.1;
-  if (left_out > most_left_out)
-    throw InputError(fmt::format("at {:.6g} rad/s no digit is certain: waves between the cylinders need more partial "
-                                 "waves than there can be",
-                                 omega),
-                     {},
-                     "the gaps between cylinders are too small, or the waves too short, for their radii: move the "
-                     "cylinders apart or leave out this frequency");
+namespace {
+
+VerticalModes modes_of(double omega, const Water& water, int evanescent) {
+  return std::isinf(omega) ? VerticalModes::at_infinite_frequency(water.depth, evanescent)
+                           : VerticalModes::at(omega, water, evanescent);
 }
 
 }  // namespace
+
+void require_coupling(const Channels& channels, const char* scatterers, double omega) {
+  constexpr double most_left_out = 0.1;
+  if (channels.left_out > most_left_out)
+    throw InputError(
+        fmt::format("at {:.6g} rad/s no digit is certain: waves between the {} need more partial waves than "
+                    "there can be",
+                    omega, scatterers),
+        {},
+        fmt::format("the gaps between {0} are too small, or the waves too short, for their radii: move the "
+                    "{0} apart or leave out this frequency",
+                    scatterers));
+}
 
 Resolution Resolution::doubled() const { return {2 * gap_functions, std::pow(threshold, 1.5), equations}; }
 
@@ -78,8 +82,9 @@ Model::Model(const std::vector<CylinderBody>& bodies, const Water& water, const 
     }
     column += 6;
   }
-  for (const double w : omega) orders_ = std::max(orders_, grouping(coarse_modes(w)).within.highest_order() + 1);
-  orders_ = std::max(orders_, grouping(coarse_modes(infinite)).within.highest_order() + 1);
+  for (const double w : omega)
+    orders_ = std::max(orders_, grouping(modes_that_may_couple(cylinders_, water_, w)).within.highest_order() + 1);
+  orders_ = std::max(orders_, grouping(modes_that_may_couple(cylinders_, water_, infinite)).within.highest_order() + 1);
   if (asked == Asked::answers) build_types();
 }
 
@@ -105,20 +110,14 @@ void Model::sort_into_types(const std::vector<CylinderBody>& bodies) {
     }
 }
 
-VerticalModes Model::modes_with(double omega, int evanescent) const {
-  return std::isinf(omega) ? VerticalModes::at_infinite_frequency(water_.depth, evanescent)
-                           : VerticalModes::at(omega, water_, evanescent);
-}
-
-/// Enough modes to find which of them couple.
-VerticalModes Model::coarse_modes(double omega) const {
+VerticalModes modes_that_may_couple(const std::vector<Cylinder>& cylinders, const Water& water, double omega) {
+  const double h = water.depth.metres();
   // Before anything is as large as the wave is short: orders, of which there are as many as wavelengths in a radius.
-  if (std::isfinite(omega))
-    require_few(count_of_terms(30 * omega * omega / water_.gravity * water_.depth.metres() / pi), omega);
+  if (std::isfinite(omega)) require_few(count_of_terms(30 * omega * omega / water.gravity * h / pi), omega);
   double smallest = infinite;
-  for (const Cylinder& c : cylinders_) smallest = std::min(smallest, c.radius);
-  require_few(terms_of_radius(smallest, water_.depth.metres()), omega);
-  return modes_with(omega, static_cast<int>(std::min(2000.0, 50 * water_.depth.metres() / smallest)) + 10);
+  for (const Cylinder& c : cylinders) smallest = std::min(smallest, c.radius);
+  require_few(terms_of_radius(smallest, h), omega);
+  return modes_of(omega, water, static_cast<int>(std::min(2000.0, 50 * h / smallest)) + 10);
 }
 
 int Model::exterior_terms(const Type& t, double K) const {
@@ -131,13 +130,12 @@ VerticalModes Model::modes(double omega) const {
   int terms = 0;
   for (const Type& t : types_) terms = std::max(terms, exterior_terms(t, K));
   require_few(terms, omega);
-  return modes_with(omega, terms);
+  return modes_of(omega, water_, terms);
 }
 
 Grouping Model::grouping(const VerticalModes& modes) const {
-  const double steps = 4 + 0.28 * modes.k * distance_across(cylinders_);  // as seen, up to 100 cylinders
   return choose_grouping(cylinders_, type_of_, lattice(), modes, resolution_.threshold,
-                         static_cast<double>(motion_.cols()), steps, resolution_.equations);
+                         static_cast<double>(motion_.cols()), expected_steps(modes, cylinders_), resolution_.equations);
 }
 
 // The sums over the depth below cylinders that stand above the bed, as seen.
@@ -154,7 +152,7 @@ double Model::building_work() const {
 // the waves far away.
 ModelCost Model::cost(double omega, double headings) const {
   constexpr double single = 3e6, with_column = 3e7, term = 1e3, number = 16, term_bytes = 400;
-  const VerticalModes depth_modes = coarse_modes(omega);
+  const VerticalModes depth_modes = modes_that_may_couple(cylinders_, water_, omega);
   const Grouping g = grouping(depth_modes);
   const double motions = static_cast<double>(motion_.cols()), columns = motions + headings;
   const EquationsCost between = equations_cost(g, cylinders_.size(), lattice(), columns, resolution_.equations);
@@ -194,26 +192,16 @@ Groups Model::groups(const std::vector<Scatterer>& of_type, const VerticalModes&
   return {cylinders_, type_of_, lattice(), each, modes, grouping, precision_of_compression * resolution_.threshold};
 }
 
-// (C3): a force is iωρ ∬φ n dS; of a motion of unit velocity it is −(iωA + B).
 OneFrequency Model::at(double omega, const std::vector<double>& heading) const {
   const VerticalModes depth_modes = modes(omega);
   const Grouping kept = grouping(depth_modes);
-  require_coupling(kept.within.left_out, omega);
+  require_coupling(kept.within, "cylinders", omega);
   const auto of_type = scatterers(depth_modes, kept.within);
-  const Groups all = groups(of_type, depth_modes, kept);
-  const Response response = all.respond(heading, motion_, resolution_.equations);
-  const MatrixXcd loads = motion_.transpose() * response.loads;
-  const Complex potential = Complex(0, water_.gravity / omega) / depth_modes.wave_at_surface();  // of a unit amplitude
-
-  OneFrequency result;
+  OneFrequency result = answers(
+      groups(of_type, depth_modes, kept),
+      {omega, water_, depth_modes, heading, motion_, distance_across(cylinders_), orders_, resolution_.equations});
   result.partial_waves = kept.within.count();
   result.left_out = kept.within.left_out;
-  result.steps = response.steps;
-  result.lattice = response.lattice;
-  result.X = Complex(0, omega * water_.density) * potential * loads.leftCols(static_cast<Index>(heading.size()));
-  result.A = -water_.density * loads.rightCols(motion_.cols()).real();
-  result.B = omega * water_.density * loads.rightCols(motion_.cols()).imag();
-  add_far_field(all, response.sent_out.rightCols(motion_.cols()), omega, depth_modes, heading, result);
   return result;
 }
 
@@ -221,23 +209,7 @@ MatrixXd Model::added_mass_at_infinity() const {
   const VerticalModes depth_modes = modes(infinite);
   const Grouping kept = grouping(depth_modes);
   const auto of_type = scatterers(depth_modes, kept.within);
-  const Response response = groups(of_type, depth_modes, kept).respond({}, motion_, resolution_.equations);
-  return -water_.density * (motion_.transpose() * response.loads).real();
-}
-
-// (C13). The integrand is a trigonometric polynomial but for terms beyond k times the extent, so the trapezium rule is
-// exact to rounding.
-void Model::add_far_field(const Groups& groups, const MatrixXcd& sent_out, double omega, const VerticalModes& modes,
-                          const std::vector<double>& heading, OneFrequency& result) const {
-  const double h = modes.depth, reach = modes.k * distance_across(cylinders_);
-  const int count = 2 * static_cast<int>(reach + 10 * std::cbrt(reach) + 4 * orders_ + 20);
-  std::vector<double> angle, against;
-  for (int t = 0; t < count; ++t) angle.push_back(2 * pi * t / count);
-  const MatrixXcd f = groups.far_field(sent_out, angle);
-  result.B_far = 4 * omega * water_.density * h / count * (f.adjoint() * f).real();
-  for (const double beta : heading) against.push_back(beta + pi);
-  const Complex factor = Complex(0, 4 * water_.density * water_.gravity * h) / modes.wave_at_surface();
-  result.X_far = factor * groups.far_field(sent_out, against).transpose();
+  return cylinders::added_mass_at_infinity(groups(of_type, depth_modes, kept), water_, motion_, resolution_.equations);
 }
 
 double Model::difference(const Model& other, double omega) const {

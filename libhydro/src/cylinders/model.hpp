@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include "groups.hpp"
+#include "answers.hpp"
 #include "hydro/cylinders/layout.hpp"
 #include "submerged.hpp"
 #include "truncated.hpp"
@@ -24,18 +24,6 @@ struct Resolution {
   Resolution doubled() const;
 };
 
-/// The answer at one frequency, in the modes of the bodies.
-struct OneFrequency {
-  Eigen::MatrixXd A, B;    ///< (6N, 6N)
-  Eigen::MatrixXcd X;      ///< (6N, headings)
-  Eigen::MatrixXd B_far;   ///< B from the power that waves carry away (C13)
-  Eigen::MatrixXcd X_far;  ///< X by Haskind's relation from the waves made by motion (C13)
-  int partial_waves = 0;   ///< per cylinder
-  double left_out = 0;     ///< coupling by partial waves that cannot be had (C11)
-  int steps = 0;           ///< of the iteration; 0: solved by elimination
-  bool lattice = false;    ///< waves passed over a lattice (C21)
-};
-
 /// What one frequency takes, told beforehand.
 struct ModelCost {
   int unknowns;    ///< complex, of the largest set of equations
@@ -43,6 +31,14 @@ struct ModelCost {
   double bytes;    ///< of working memory
   bool iterative;  ///< the equations between groups
 };
+
+/// Enough modes of one frequency (+∞ allowed) to find which of them couple.
+/// \throws InputError for more terms of the sums over the depth than are taken
+VerticalModes modes_that_may_couple(const std::vector<Cylinder>& cylinders, const Water& water, double omega);
+
+/// \throws InputError if so much is left out by the partial waves that can be had that no digit is certain;
+/// `scatterers` is what they pass between
+void require_coupling(const Channels& channels, const char* scatterers, double omega);
 
 class Model {
  public:
@@ -74,14 +70,10 @@ class Model {
   Scatterer scatterer(const Type& type, const VerticalModes& modes, const Channels& channels) const;
   void sort_into_types(const std::vector<CylinderBody>& bodies);
   void build_types();
-  VerticalModes modes_with(double omega, int evanescent) const;
-  VerticalModes coarse_modes(double omega) const;
   VerticalModes modes(double omega) const;
   Grouping grouping(const VerticalModes& modes) const;
   std::vector<Scatterer> scatterers(const VerticalModes& modes, const Channels& channels) const;
   Groups groups(const std::vector<Scatterer>& of_type, const VerticalModes& modes, const Grouping& grouping) const;
-  void add_far_field(const Groups& groups, const Eigen::MatrixXcd& sent_out, double omega, const VerticalModes& modes,
-                     const std::vector<double>& heading, OneFrequency& result) const;
 
   Water water_;
   Resolution resolution_;

@@ -18,7 +18,6 @@ namespace {
 
 using Eigen::MatrixXd;
 
-constexpr int gradings = 2;               // edge panels a quarter as wide: more is not seen beside the others' error
 constexpr std::size_t most_levels = 3;    // two differences, from which an order is seen
 constexpr int most_unknowns = 4000;       // a system: half a minute of elimination
 constexpr std::size_t least_samples = 5;  // a cubic, and one to test it by
@@ -32,24 +31,28 @@ constexpr double of_roughness = 4;
 
 /// One mesh, and what it has been asked: of each frequency, and the two limits.
 struct Level {
-  std::unique_ptr<Model> model;
+  std::unique_ptr<const Discretisation> mesh;
+  std::unique_ptr<const Solver> solver;
   std::vector<std::optional<OneFrequency>> at;
   std::optional<MatrixXd> A_inf, A_zero;
 };
 
-/// What is lost by panels' size, and by refining at some frequencies only, relative (P11).
+/// What is lost by panels' size, by refining at some frequencies only, and by the partial waves that are left out
+/// between hulls, relative (P11).
 struct Estimate {
-  double panels = 0, interpolation = 0;
-  double total() const { return panels + interpolation; }
+  double panels = 0, interpolation = 0, truncation = 0;
+  double total() const { return panels + interpolation + truncation; }
 };
 
 class Ladder {
  public:
-  Ladder(PanelMesh first, const std::vector<HullBody>& bodies, const Water& water, const std::vector<double>& omega,
+  Ladder(std::unique_ptr<const Discretisation> first, const std::vector<double>& omega,
          const std::vector<double>& heading, const Options& options)
-      : bodies_(bodies), water_(water), omega_(omega), heading_(heading), options_(options) {
+      : omega_(omega), heading_(heading), options_(options) {
     wanted_ = first_samples(options);
-    add(refined(first));
+    add(first->refined());
+    more_ = first->with_more_partial_waves();
+    more_waves_.resize(frequencies_of_more_waves().size());
     levels_.insert(levels_.begin(), level(std::move(first)));
   }
 
@@ -63,67 +66,83 @@ class Ladder {
   bool samples_all() const { return samples().size() == omega_.size(); }
   void double_samples() { wanted_ = 2 * wanted_ - 1; }
   bool can_refine() const { return levels_.size() < most_levels && unknowns_of_next() <= most_unknowns; }
-  void refine() { add(refined(levels_.back().model->mesh())); }
+  void refine() { add(levels_.back().mesh->refined()); }
   std::string why_not_finer() const;
-  int finest_panels() const { return levels_.back().model->mesh().hull_panels(); }
+  int finest_panels() const { return panels_of(levels_.back()); }
 
  private:
   struct Piece {
-    Level* level;
+    Level* level;    ///< null: more partial waves, at look `at`
     std::size_t at;  ///< a frequency, or behind them ∞ and 0
   };
 
-  Level level(PanelMesh mesh) const {
-    Level out{std::make_unique<Model>(std::move(mesh), bodies_, water_), {}, {}, {}};
+  Level level(std::unique_ptr<const Discretisation> mesh) const {
+    auto solver = mesh->solver();
+    Level out{std::move(mesh), std::move(solver), {}, {}, {}};
     out.at.resize(omega_.size());
     return out;
   }
-  void add(PanelMesh mesh) {
-    require_memory(cost_of(mesh, bodies_.size(), samples().size(), heading_.size(), options_.threads, 0));
+  void add(std::unique_ptr<const Discretisation> mesh) {
+    require_memory(mesh->cost(sample_omega(), heading_.size(), options_.threads, 0));
     levels_.push_back(level(std::move(mesh)));
+  }
+  static int panels_of(const Level& level) {
+    SelfCheck check;
+    level.mesh->describe(check);
+    return check.panels;
   }
   std::vector<std::size_t> samples() const { return potential::spread(omega_.size(), wanted_, 0); }
   int unknowns_of_next() const {
-    const PanelMesh& mesh = levels_.back().model->mesh();
-    return static_cast<int>(4 * mesh.hull.size() + mesh.lid.size());
+    return levels_.back().mesh->cost({omega_.back()}, heading_.size(), 1, 1).refined_unknowns;
   }
   std::vector<Piece> missing();
-  void do_piece(const Piece& piece) const;
+  void do_piece(const Piece& piece);
+  /// Where the first mesh is solved with more partial waves between hulls: none where there are none.
+  std::vector<std::size_t> frequencies_of_more_waves() const {
+    constexpr int looks = 3;
+    return more_ ? potential::spread(omega_.size(), looks, omega_.size() - 1) : std::vector<std::size_t>{};
+  }
   OneFrequency step(std::size_t frequency) const;
   std::vector<OneFrequency> corrections() const;
   std::vector<double> sample_omega() const;
 
-  const std::vector<HullBody>& bodies_;
-  const Water& water_;
   const std::vector<double>&omega_, &heading_;
   const Options& options_;
   std::vector<Level> levels_;
+  std::unique_ptr<const Solver> more_;
+  std::vector<std::optional<OneFrequency>> more_waves_;
   int wanted_ = 0, done_ = 0;
 };
 
 /// The finest first: its pieces take longest.
 std::vector<Ladder::Piece> Ladder::missing() {
   std::vector<Piece> out;
+  for (std::size_t i = 0; i < more_waves_.size(); ++i)
+    if (!more_waves_[i]) out.push_back({nullptr, i});
   const std::size_t n = omega_.size();
   for (std::size_t l = levels_.size(); l-- > 0;) {
     Level& level = levels_[l];
     for (const std::size_t i : l == 0 ? potential::spread(n, static_cast<int>(n), 0) : samples())
       if (!level.at[i]) out.push_back({&level, i});
     if (!level.A_inf) out.push_back({&level, n});
-    if (!level.A_zero && water_.depth.is_infinite()) out.push_back({&level, n + 1});
+    if (!level.A_zero && level.mesh->has_zero()) out.push_back({&level, n + 1});
   }
   return out;
 }
 
-void Ladder::do_piece(const Piece& piece) const {
+void Ladder::do_piece(const Piece& piece) {
+  if (piece.level == nullptr) {
+    more_waves_[piece.at] = more_->at(omega_[frequencies_of_more_waves()[piece.at]], heading_);
+    return;
+  }
   const std::size_t n = omega_.size();
-  const Model& model = *piece.level->model;
+  const Solver& solver = *piece.level->solver;
   if (piece.at < n)
-    piece.level->at[piece.at] = model.at(omega_[piece.at], heading_);
+    piece.level->at[piece.at] = solver.at(omega_[piece.at], heading_);
   else if (piece.at == n)
-    piece.level->A_inf = model.added_mass_limit(std::numeric_limits<double>::infinity());
+    piece.level->A_inf = solver.added_mass_limit(std::numeric_limits<double>::infinity());
   else
-    piece.level->A_zero = model.added_mass_limit(0);
+    piece.level->A_zero = solver.added_mass_limit(0);
 }
 
 void Ladder::solve() {
@@ -178,14 +197,15 @@ Work Ladder::work() const {
   }
   w.A_inf = inf.back() + step_to_the_limit(inf);
   if (!zero.empty()) w.A_zero = zero.back() + step_to_the_limit(zero);
-  const Model& first = *levels_.front().model;
-  w.check = self_check(w.results, first.length(bodies_.size()));
+  const Discretisation& first = *levels_.front().mesh;
+  w.check = self_check(w.results, first.length());
   const Estimate e = estimate(w);
   w.check.estimate = e.total();
   w.check.interpolation = e.interpolation;
+  w.check.truncation = e.truncation;
   w.check.refined_omega = nodes;
-  for (const Level& level : levels_) w.check.extrapolated_from.push_back(level.model->mesh().hull_panels());
-  describe(first.mesh(), w.check);
+  for (const Level& level : levels_) w.check.extrapolated_from.push_back(panels_of(level));
+  first.describe(w.check);
   return w;
 }
 
@@ -202,6 +222,9 @@ Estimate Ladder::estimate(const Work& w) const {
   if (w.A_zero) limit(&Level::A_zero);
   e.panels *= doubtful_share(levels_.size());
   if (!samples_all()) e.interpolation = interpolation_error(size);
+  for (std::size_t i = 0; i < more_waves_.size(); ++i)
+    e.truncation = std::max(
+        e.truncation, largest(sum(*more_waves_[i], -1, *levels_.front().at[frequencies_of_more_waves()[i]]), size));
   return e;
 }
 
@@ -225,6 +248,10 @@ double Ladder::interpolation_error(const Sizes& size) const {
   return std::max(of_omitted * missed, of_roughness * added * rough);
 }
 
+std::string by_truncation(double truncation) {
+  return truncation > 0 ? fmt::format(" and {:.2g} by partial waves that are left out", truncation) : "";
+}
+
 std::string Ladder::why_not_finer() const {
   if (levels_.size() == most_levels) return fmt::format("{} panels are the finest of three meshes", finest_panels());
   return fmt::format("the next mesh would have {} unknowns a system, more than {}", unknowns_of_next(), most_unknowns);
@@ -236,16 +263,9 @@ int first_samples(const Options& options) {
   return std::max(static_cast<int>(least_samples), options.refined_frequencies);
 }
 
-PanelMesh first_mesh(const PanelMesh& given, const Water& water, double highest) {
-  constexpr int most_halvings = 6;  // 4096 panels for one: what is longer still is refused
-  PanelMesh mesh = graded(given, gradings);
-  for (int i = 0; i < most_halvings && too_long(mesh, water, highest); ++i) mesh = refined(mesh);
-  return mesh;
-}
-
-Work controlled_work(const PanelMesh& given, const std::vector<HullBody>& bodies, const Water& water,
-                     const std::vector<double>& omega, const std::vector<double>& heading, const Options& options) {
-  Ladder ladder(first_mesh(given, water, omega.back()), bodies, water, omega, heading, options);
+Work controlled_work(const Discretisation& given, const std::vector<double>& omega, const std::vector<double>& heading,
+                     const Options& options) {
+  Ladder ladder(given.graded(omega.back()), omega, heading, options);
   while (true) {
     ladder.solve();
     Work w = ladder.work();
@@ -262,8 +282,9 @@ Work controlled_work(const PanelMesh& given, const std::vector<HullBody>& bodies
     else
       throw InputError(
           fmt::format("the error by panels is estimated at {:.2g}, {:.2g} of it by interpolation between {} refined "
-                      "frequencies; {:.2g} is asked for, and {}",
-                      e.total(), e.interpolation, w.check.refined_omega.size(), tolerance, ladder.why_not_finer()),
+                      "frequencies{}; {:.2g} is asked for, and {}",
+                      e.total(), e.interpolation, w.check.refined_omega.size(), by_truncation(e.truncation), tolerance,
+                      ladder.why_not_finer()),
           {},
           "make the mesh finer, above all at edges and at the waterline, leave out the shortest waves, or take a "
           "larger "

@@ -41,7 +41,8 @@ Matrix of(const std::vector<const OneFrequency*>& all, Matrix OneFrequency::*mem
 }  // namespace
 
 OneFrequency sum(const OneFrequency& a, double s, const OneFrequency& b) {
-  return {a.A + s * b.A, a.B + s * b.B, a.B_far + s * b.B_far, a.X + s * b.X, a.X_far + s * b.X_far};
+  return {a.A + s * b.A, a.B + s * b.B,         a.B_far + s * b.B_far,
+          a.X + s * b.X, a.X_far + s * b.X_far, std::max(a.partial_waves, b.partial_waves)};
 }
 
 OneFrequency step_to_the_limit(const std::vector<const OneFrequency*>& all) {

@@ -3,7 +3,7 @@
 /// what is left of the error. (G16), (G17) in docs/theory/panels.md. Not installed.
 #include <vector>
 
-#include "one_frequency.hpp"
+#include "discretisation.hpp"
 
 namespace hydro::panels {
 

@@ -46,23 +46,28 @@ double Model::profile(double k, double z) const {
   return std::exp(k * z) * (1 + std::exp(-2 * k * (z + h))) / (1 + std::exp(-2 * k * h));
 }
 
-MatrixXcd Model::incident(double omega, double k, const std::vector<double>& heading) const {
-  std::vector<Vector3d> points;
-  for (Index i = 0; i < all_.point.rows(); ++i) points.emplace_back(all_.point.row(i));
+MatrixXd Model::points(double K) const {
+  const bool lid = std::isfinite(K);
+  MatrixXd out(all_.point.rows() + (lid ? mesh_.lid_panels() : 0), 3);
+  out.topRows(all_.point.rows()) = all_.point;
+  Index row = all_.point.rows();
   for (const Image& image : mesh_.images)
-    for (const Panel& p : mesh_.lid) points.push_back(image * p.shape.centre);
-  MatrixXcd out(static_cast<Index>(points.size()), static_cast<Index>(heading.size()));
+    for (std::size_t j = 0; lid && j < mesh_.lid.size(); ++j) out.row(row++) = image * mesh_.lid[j].shape.centre;
+  return out;
+}
+
+MatrixXcd Model::incident(double omega, double k, const std::vector<double>& heading) const {
+  const MatrixXd point = points(0);
+  MatrixXcd out(point.rows(), static_cast<Index>(heading.size()));
   for (Index b = 0; b < out.cols(); ++b) {
     const double c = std::cos(heading[static_cast<std::size_t>(b)]), s = std::sin(heading[static_cast<std::size_t>(b)]);
-    for (Index i = 0; i < out.rows(); ++i) {
-      const Vector3d& p = points[static_cast<std::size_t>(i)];
-      out(i, b) = i_unit * (water_.gravity / omega * profile(k, p.z())) * std::polar(1.0, -k * (p.x() * c + p.y() * s));
-    }
+    for (Index i = 0; i < out.rows(); ++i)
+      out(i, b) = i_unit * (water_.gravity / omega * profile(k, point(i, 2))) *
+                  std::polar(1.0, -k * (point(i, 0) * c + point(i, 1) * s));
   }
   return out;
 }
 
-/// L = ∬ φ n dS, row: load on, column: potential.
 MatrixXcd Model::loads(const MatrixXcd& potential) const {
   return (all_.area.asDiagonal() * all_.normal).transpose().cast<Complex>() * potential;
 }
@@ -91,10 +96,22 @@ MatrixXd Model::damping_far(double omega, double k, const MatrixXcd& motion) con
   return (k / (8 * pi * water_.density * water_.gravity * speed) * 2 * pi / count) * (X * X.adjoint()).real();
 }
 
+// As K → ∞ there are no waves, and so no irregular frequencies for a lid to take away.
+Potentials Model::potentials(double K, const MatrixXcd& incident) const {
+  const WaveGreen green(K, water_.depth, reach_);
+  if (std::isfinite(K) && K > 0) return solve_system(mesh_, all_, parts_, green, incident);
+  PanelMesh open{.hull = mesh_.hull, .lid = {}, .images = mesh_.images, .body_of = mesh_.body_of};
+  const auto hull = static_cast<Index>(mesh_.hull.size());
+  RankineParts parts;
+  for (const RankineParts::OfClass& p : parts_.of_class)
+    parts.of_class.push_back({p.dipole.topRows(hull), p.image_dipole.topRows(hull), p.source.topRows(hull),
+                              p.image_source.topRows(hull), MatrixXd(hull, 0)});
+  return solve_system(open, all_, parts, green, incident);
+}
+
 OneFrequency Model::at(double omega, const std::vector<double>& heading) const {
   const double K = omega * omega / water_.gravity, k = waves::wavenumber(omega, water_);
-  const WaveGreen green(K, water_.depth, reach_);
-  const Potentials phi = solve_system(mesh_, all_, parts_, green, incident(omega, k, heading));
+  const Potentials phi = potentials(K, incident(omega, k, heading));
   const MatrixXcd L = loads(phi.motion);
   OneFrequency out;
   out.A = -water_.density * L.real();
@@ -106,15 +123,8 @@ OneFrequency Model::at(double omega, const std::vector<double>& heading) const {
 }
 
 MatrixXd Model::added_mass_limit(double K) const {
-  PanelMesh open{.hull = mesh_.hull, .lid = {}, .images = mesh_.images, .body_of = mesh_.body_of};
-  const auto hull = static_cast<Index>(mesh_.hull.size());
-  RankineParts parts;
-  for (const RankineParts::OfClass& p : parts_.of_class)
-    parts.of_class.push_back({p.dipole.topRows(hull), p.image_dipole.topRows(hull), p.source.topRows(hull),
-                              p.image_source.topRows(hull), MatrixXd(hull, 0)});
-  const WaveGreen green(K, water_.depth, reach_);
   const MatrixXcd none(all_.point.rows(), 0);
-  return -water_.density * loads(solve_system(open, all_, parts, green, none).motion).real();
+  return -water_.density * loads(potentials(K, none).motion).real();
 }
 
 }  // namespace hydro::panels

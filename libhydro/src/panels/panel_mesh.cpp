@@ -339,6 +339,12 @@ std::vector<Polygon> lid_squares(const std::vector<Segment>& waterline, double s
   return out;
 }
 
+double wet_area(const PanelMesh& mesh) {
+  double sum = 0;
+  for (const Panel& p : mesh.hull) sum += p.shape.area;
+  return sum * static_cast<double>(mesh.images.size());
+}
+
 PanelMesh panel_mesh(const std::vector<HullBody>& bodies, const WaterDepth& depth, bool lid) {
   require(!bodies.empty(), "there is no body");
   std::vector<WetHull> hulls;

@@ -41,6 +41,8 @@ struct PanelMesh {
 
 /// \throws InputError as solve()
 PanelMesh panel_mesh(const std::vector<HullBody>& bodies, const WaterDepth& depth, bool lid);
+/// Of all images of the hulls, m².
+double wet_area(const PanelMesh& mesh);
 /// Squares that cover the water inside the closed lines that `waterline` (pairs of points) makes, all but a seam.
 std::vector<Polygon> lid_squares(const std::vector<std::array<Eigen::Vector2d, 2>>& waterline, double side);
 

@@ -109,7 +109,8 @@ Cost cost_of(const PanelMesh& mesh, std::size_t bodies, std::size_t frequencies,
          .systems = static_cast<int>(systems),
          .refined_unknowns = fine > 0 ? static_cast<int>(4 * hull + lid) : 0,
          .bytes = bytes_of(hull + lid, systems, right, threads),
-         .seconds = static_cast<double>(frequencies + 2) * seconds_of(hull + lid, systems, right) / threads};
+         .seconds = static_cast<double>(frequencies + 2) * seconds_of(hull + lid, systems, right) / threads,
+         .partial_waves = 0};
   if (fine > 0) {
     c.bytes += bytes_of(4 * hull + lid, systems, right,
                         static_cast<int>(std::min<std::size_t>(fine, static_cast<std::size_t>(threads))));

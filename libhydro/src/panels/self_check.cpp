@@ -68,6 +68,7 @@ SelfCheck self_check(const std::vector<OneFrequency>& results, double arm) {
     check.reciprocity = std::max({check.reciprocity, potential::relative_size(r.A - r.A.transpose(), s.A),
                                   potential::relative_size(r.B - r.B.transpose(), s.B)});
   }
+  for (const OneFrequency& r : results) check.partial_waves = std::max(check.partial_waves, r.partial_waves);
   check.estimate = std::numeric_limits<double>::quiet_NaN();
   check.length = arm;
   return check;
@@ -99,12 +100,6 @@ double difference(const potential::Coefficients& c, const potential::Coefficient
   double out = 0;
   for (std::size_t w = 0; w < c.omega.size(); ++w) out = std::max(out, largest(sum(at(c, w), -1, all[w]), size));
   return out;
-}
-
-void describe(const PanelMesh& mesh, SelfCheck& check) {
-  check.panels = mesh.hull_panels();
-  check.lid_panels = mesh.lid_panels();
-  check.planes_of_symmetry = static_cast<int>(mesh.images.size()) / 2;
 }
 
 }  // namespace hydro::panels

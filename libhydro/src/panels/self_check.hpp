@@ -2,7 +2,7 @@
 /// \file  What theory and a finer mesh say of the result. (G14), (G15) in docs/theory/panels.md. Not installed.
 #include <vector>
 
-#include "one_frequency.hpp"
+#include "discretisation.hpp"
 
 namespace hydro::panels {
 
@@ -20,7 +20,5 @@ SelfCheck self_check(const std::vector<OneFrequency>& results, double arm);
 /// The error that panels cut in four tell (G15): `finer` belongs to the frequencies refined[…] of `results`.
 double estimate_of(const std::vector<OneFrequency>& results, const std::vector<OneFrequency>& finer,
                    const std::vector<std::size_t>& refined, double arm);
-/// Numbers of panels and planes.
-void describe(const PanelMesh& mesh, SelfCheck& check);
 
 }  // namespace hydro::panels

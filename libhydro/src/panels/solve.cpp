@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <mutex>
 
 #include "controlled.hpp"
+#include "extrapolate.hpp"
 #include "hydro/base/dense.hpp"
 #include "hydro/base/parallel.hpp"
 #include "hydro/hydrostatics/immersion.hpp"
@@ -58,6 +60,11 @@ void add_notes(const SelfCheck& k, Coefficients& c) {
   c.notes.push_back(fmt::format(
       "self-check, relative: energy {:.1e}, Haskind {:.1e}, reciprocity {:.1e} before A and B were made symmetric",
       k.energy, k.haskind, k.reciprocity));
+  if (k.kinds > 0)
+    c.notes.push_back(
+        fmt::format("{} {} of hulls, each solved once; between them pass up to {} partial waves a hull{}", k.kinds,
+                    k.kinds == 1 ? "kind" : "kinds", k.partial_waves,
+                    k.truncation > 0 ? fmt::format(", what is left out changes {:.1e}", k.truncation) : ""));
   if (k.passivity > 0)
     c.notes.push_back(
         fmt::format("B was made free of negative eigenvalues: changed by {:.1e} of its modes at most", k.passivity));
@@ -90,38 +97,44 @@ void note_flat_faces(const std::vector<HullBody>& bodies, Coefficients& c) {
 }
 
 /// The mesh as it is given; its error is told if frequencies are to be refined.
-Work plain_work(PanelMesh mesh, const std::vector<HullBody>& bodies, const Water& water,
-                const std::vector<double>& omega, const std::vector<double>& heading, const Options& options) {
+Work plain_work(const Discretisation& given, const std::vector<double>& omega, const std::vector<double>& heading,
+                const Options& options) {
+  const auto solver = given.solver();
+  std::unique_ptr<const Solver> fine, more;
+  std::vector<std::size_t> again;  // frequencies that are repeated: finer, and with more partial waves
+  if (options.refined_frequencies > 0) {
+    fine = given.refined()->solver();
+    more = given.with_more_partial_waves();
+    again = frequencies_to_refine(omega.size(), options.refined_frequencies);
+  }
   Work w;
-  std::optional<Model> fine;
-  if (options.refined_frequencies > 0) fine.emplace(refined(mesh), bodies, water);
-  const Model model(std::move(mesh), bodies, water);
-  std::vector<std::size_t> refined;
-  if (fine) refined = frequencies_to_refine(omega.size(), options.refined_frequencies);
-  std::vector<OneFrequency> finer(refined.size());
+  std::vector<OneFrequency> finer(again.size()), with_more(more ? again.size() : 0);
   w.results.resize(omega.size());
-  const bool zero = water.depth.is_infinite();
-  const std::size_t first = finer.size(), all = first + omega.size() + (zero ? 2 : 1);
+  std::vector<std::function<void()>> pieces;  // the dearest first
+  for (std::size_t i = 0; i < finer.size(); ++i)
+    pieces.emplace_back([&, i] { finer[i] = fine->at(omega[again[i]], heading); });
+  for (std::size_t i = 0; i < with_more.size(); ++i)
+    pieces.emplace_back([&, i] { with_more[i] = more->at(omega[again[i]], heading); });
+  for (std::size_t i = 0; i < omega.size(); ++i)
+    pieces.emplace_back([&, i] { w.results[i] = solver->at(omega[i], heading); });
+  pieces.emplace_back([&] { w.A_inf = solver->added_mass_limit(std::numeric_limits<double>::infinity()); });
+  if (given.has_zero()) pieces.emplace_back([&] { w.A_zero = solver->added_mass_limit(0); });
   std::mutex told;
   int done = 0;
-  in_parallel(all, potential::thread_count(options.threads, all), [&](std::size_t i) {
-    if (i < first)
-      finer[i] = fine->at(omega[refined[i]], heading);
-    else if (i < first + omega.size())
-      w.results[i - first] = model.at(omega[i - first], heading);
-    else if (i == first + omega.size())
-      w.A_inf = model.added_mass_limit(std::numeric_limits<double>::infinity());
-    else
-      w.A_zero = model.added_mass_limit(0);
+  in_parallel(pieces.size(), potential::thread_count(options.threads, pieces.size()), [&](std::size_t i) {
+    pieces[i]();
     const std::lock_guard<std::mutex> lock(told);
     ++done;
-    if (options.progress) options.progress(done, static_cast<int>(all));
+    if (options.progress) options.progress(done, static_cast<int>(pieces.size()));
   });
-  const double length = model.length(bodies.size());
-  w.check = self_check(w.results, length);
-  describe(model.mesh(), w.check);
-  if (fine) w.check.estimate = estimate_of(w.results, finer, refined, length);
-  for (const std::size_t i : refined) w.check.refined_omega.push_back(omega[i]);
+  w.check = self_check(w.results, given.length());
+  given.describe(w.check);
+  if (fine) w.check.estimate = estimate_of(w.results, finer, again, given.length());
+  const Sizes size = sizes(w.results, given.length());
+  for (std::size_t i = 0; i < with_more.size(); ++i)
+    w.check.truncation = std::max(w.check.truncation, largest(sum(with_more[i], -1, w.results[again[i]]), size));
+  w.check.estimate += w.check.truncation;
+  for (const std::size_t i : again) w.check.refined_omega.push_back(omega[i]);
   return w;
 }
 
@@ -160,13 +173,12 @@ double fill(const Work& w, const std::vector<double>& omega, const std::vector<d
 Solution solve(const std::vector<HullBody>& bodies, const Water& water, const std::vector<double>& omega,
                const std::vector<double>& heading, const Options& options) {
   check_request(omega, heading, options);
-  PanelMesh mesh = panel_mesh(bodies, water.depth, options.lid);
-  require_apart(mesh, bodies);
+  const auto given = discretised(bodies, water, omega, heading.size(), options);
   const bool controlled = options.tolerance.has_value();
-  if (!controlled) require_short_panels(mesh, water, omega.back());
-  require_memory(cost(bodies, water, omega, heading, options));
-  const Work w = controlled ? controlled_work(mesh, bodies, water, omega, heading, options)
-                            : plain_work(std::move(mesh), bodies, water, omega, heading, options);
+  if (!controlled) given->require_short_panels(omega.back());
+  require_memory(cost_as_asked(*given, omega, heading.size(), options));
+  const Work w =
+      controlled ? controlled_work(*given, omega, heading, options) : plain_work(*given, omega, heading, options);
   Solution s;
   s.check = w.check;
   Coefficients& c = s.coefficients;
@@ -183,12 +195,7 @@ Solution solve(const std::vector<HullBody>& bodies, const Water& water, const st
 Cost cost(const std::vector<HullBody>& bodies, const Water& water, const std::vector<double>& omega,
           const std::vector<double>& heading, const Options& options) {
   check_request(omega, heading, options);
-  const PanelMesh given = panel_mesh(bodies, water.depth, options.lid);
-  const auto of = [&](const PanelMesh& mesh, int refined) {
-    return cost_of(mesh, bodies.size(), omega.size(), heading.size(), options.threads, refined);
-  };
-  return options.tolerance ? of(first_mesh(given, water, omega.back()), first_samples(options))
-                           : of(given, options.refined_frequencies);
+  return cost_as_asked(*discretised(bodies, water, omega, heading.size(), options), omega, heading.size(), options);
 }
 
 }  // namespace hydro::panels

@@ -314,7 +314,8 @@ TEST(HullsInAScene, StateOneTableWhereSeveralAreSolved) {
   const scene::Scene frequencies = two("3 values", "5 values"), tolerance = two("0.3\n", "0.1\n");
   EXPECT_THAT(refused(frequencies),
               ThrowsMessage<hydro::InputError>(AllOf(HasSubstr("test.toml:31:8"), HasSubstr("different frequencies"))));
-  EXPECT_THAT(refused(tolerance), ThrowsMessage<hydro::InputError>(HasSubstr("different mesh_tolerance")));
+  EXPECT_THAT(refused(tolerance),
+              ThrowsMessage<hydro::InputError>(HasSubstr("different mesh_tolerance, lid or mesh_interaction")));
   // One by panels and one exactly: no waves pass between them, which the scene must say.
   const scene::Scene mixed =
       two(mesh,

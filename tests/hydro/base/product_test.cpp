@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <complex>
 #include <cstdint>
 #include <limits>
 
@@ -61,6 +62,35 @@ TEST(TransposedProduct, TakesPartsOfMatrices) {
 TEST(TransposedProduct, OfNothingIsZeroOrEmpty) {
   EXPECT_TRUE(hydro::transposed_product(Eigen::MatrixXd(0, 3), Eigen::MatrixXd(0, 2)).isZero(0));
   EXPECT_EQ(hydro::transposed_product(Eigen::MatrixXd(4, 0), Eigen::MatrixXd(4, 2)).size(), 0);
+}
+
+TEST(AddProduct, IsTheSumOnPaperForAnyShapeAndPart) {
+  const auto complex = [](Eigen::Index rows, Eigen::Index columns, std::uint64_t stream) {
+    Eigen::MatrixXcd out(rows, columns);
+    out.real() = drawn(rows, columns, stream);
+    out.imag() = drawn(rows, columns, stream + 1);
+    return out;
+  };
+  for (const auto& [m, k, n] : {std::array<Eigen::Index, 3>{1, 1, 1}, {3, 7, 5}, {33, 17, 48}, {75, 76, 47}}) {
+    const Eigen::MatrixXcd A = complex(m + 3, k + 2, 5);
+    const hydro::RowMajorXcd B = complex(k + 4, n + 1, 7);
+    hydro::RowMajorXcd out = complex(m + 2, n, 9);
+    const hydro::RowMajorXcd before = out;
+    hydro::add_product(A.block(1, 2, m, k), B.middleRows(3, k).leftCols(n), out.middleRows(2, m));
+    // Complex products are four real ones; each sum is off by 2k ε Σ|a||b|, here and there.
+    for (Eigen::Index i = 0; i < m; ++i)
+      for (Eigen::Index j = 0; j < n; ++j) {
+        std::complex<double> sum = before(i + 2, j);
+        double size = std::abs(sum);
+        for (Eigen::Index l = 0; l < k; ++l) {
+          sum += A(i + 1, l + 2) * B(l + 3, j);
+          size += std::abs(A(i + 1, l + 2)) * std::abs(B(l + 3, j));
+        }
+        const double share = 4 * static_cast<double>(k + 1) * std::numeric_limits<double>::epsilon();
+        EXPECT_LT(std::abs(out(i + 2, j) - sum), share * size) << i << ' ' << j;
+      }
+    EXPECT_TRUE(out.topRows(2) == before.topRows(2));
+  }
 }
 
 }  // namespace product_test

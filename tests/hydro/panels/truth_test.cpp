@@ -100,7 +100,7 @@ TEST(PanelTruth, TwoCylindersMeetEachOthersWaves) {
   HullBody first = body(cylinder_mesh(1, 0.8, 6, 6, 24, {-1.6, 0}), -1.6),
            second = body(cylinder_mesh(0.7, 0.5, 6, 6, 24, {1.1, 0}), 1.1);
   second.name = "second";
-  const auto ours = solve({first, second}, tank, omega, {0.4});
+  const auto ours = solve({first, second}, tank, omega, {0.4}, {.interaction = Interaction::panels});
   EXPECT_EQ(ours.check.planes_of_symmetry, 1);
   const Difference d = difference(ours.coefficients, exact);
   EXPECT_LT(d.translations, 0.03);  // panels of a sixth of the radius: between those of the test above

@@ -35,9 +35,10 @@ struct Timed {
 };
 
 Timed timed(const std::vector<HullBody>& bodies, const hydro::Water& water, const std::vector<double>& at,
-            const std::vector<double>& heading, std::optional<double> tolerance) {
+            const std::vector<double>& heading, std::optional<double> tolerance,
+            Interaction interaction = Interaction::panels) {
   const std::clock_t start = std::clock();  // processor time: other work disturbs it little
-  Solution s = solve(bodies, water, at, heading, {.tolerance = tolerance, .threads = 1});
+  Solution s = solve(bodies, water, at, heading, {.tolerance = tolerance, .interaction = interaction, .threads = 1});
   return {std::move(s), static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC};
 }
 
@@ -124,9 +125,49 @@ std::vector<Peer> peers() {
           peer("five boxes", boxes, deep, evenly(0.2, 6, 5), 59, 4, 2660, 351)};
 }
 
+// ---- arrays
+
+struct OfArray {
+  int hulls, panels, partial_waves;
+  double each;                       ///< s a frequency, by partial waves
+  std::optional<double> together;    ///< s a frequency, all panels in one set of equations
+  std::optional<double> difference;  ///< of the two
+};
+
+/// A square of boxes of 2 x 2 x 0.3 m, as they are meshed in generated-bem, 4 m apart in 14 m of water.
+OfArray of_array(int side) {
+  std::vector<HullBody> boxes;
+  for (int i = 0; i < side; ++i)
+    for (int j = 0; j < side; ++j) {
+      const double middle = (side - 1) / 2.0;  // symmetric about both axes, which all panels together use
+      const Vector3d at(4 * (i - middle), 4 * (j - middle), 0);
+      boxes.push_back(
+          {fmt::format("box {} {}", i, j),
+           at,
+           {},
+           Hull(hydro::hydrostatics::box_mesh(at - Vector3d(1, 1, 0.3), at + Vector3d(1, 1, 0), {14, 14, 6}))});
+    }
+  constexpr int limits = 1;  // A at infinite frequency is of the price of a frequency
+  const std::vector<double> one{2.0}, two{2.0, 2.5};
+  const Timed each = timed(boxes, water_of(14), side > 5 ? one : two, headings, {}, Interaction::partial_waves);
+  OfArray out{side * side,
+              each.solution.check.panels,
+              each.solution.check.partial_waves,
+              each.seconds / (limits + (side > 5 ? 1 : 2)),
+              {},
+              {}};
+  if (side <= 2) {
+    const Timed all = timed(boxes, water_of(14), two, headings, {}, Interaction::panels);
+    out.together = all.seconds / (limits + 2);
+    out.difference = difference(each.solution.coefficients, all.solution.coefficients, all.solution.check.length);
+  }
+  std::cout << fmt::format("{} boxes: {:.3g} s a frequency\n", out.hulls, out.each) << std::flush;
+  return out;
+}
+
 // ---- the page
 
-std::string page(const std::vector<Paid>& list, const std::vector<Peer>& peers) {
+std::string page(const std::vector<Paid>& list, const std::vector<Peer>& peers, const std::vector<OfArray>& arrays) {
   std::string out = fmt::format(
       "# What coefficients of hulls cost\n\n"
       "Written by `price_hulls` (validation/cost/hulls), one core. A truncated cylinder of 1 m radius and {} m draught "
@@ -151,6 +192,16 @@ std::string page(const std::vector<Paid>& list, const std::vector<Peer>& peers) 
   for (const Peer& p : peers)
     out += fmt::format("| {} | {} | {} | {} | {} | {} | {:.3g} | {:g} |\n", p.name, p.panels, p.of_peer, p.of,
                        p.headings, p.frequencies, p.seconds, p.peer_seconds);
+  out +=
+      "\nBoxes of 2 x 2 x 0.3 m and 532 panels each, in a square 4 m apart in 14 m of water, 3 headings, six motions "
+      "of each; seconds a frequency. By partial waves one box is solved, with as many right-hand sides as waves "
+      "pass.\n\n"
+      "| boxes | panels | partial waves a box | by partial waves [s] | all panels together [s] | they differ by |\n"
+      "| --- | --- | --- | --- | --- | --- |\n";
+  for (const OfArray& a : arrays)
+    out += fmt::format("| {} | {} | {} | {:.3g} | {} | {} |\n", a.hulls, a.panels, a.partial_waves, a.each,
+                       a.together ? fmt::format("{:.3g}", *a.together) : "-",
+                       a.difference ? fmt::format("{:.1e}", *a.difference) : "-");
   return out;
 }
 
@@ -187,7 +238,9 @@ void write_all(const std::filesystem::path& folder) {
                              {4, 40, 0.03}})
     list.push_back(paid(price, exact));
   const std::vector<Peer> others = peers();
-  hydro::io::write_atomically(folder / "hulls.md", page(list, others));
+  std::vector<OfArray> arrays;
+  for (const int side : {1, 2, 5, 10}) arrays.push_back(of_array(side));
+  hydro::io::write_atomically(folder / "hulls.md", page(list, others, arrays));
   hydro::io::write_atomically(folder / "hulls.svg", plot::svg(figure(list)));
 }
 

@@ -7,11 +7,21 @@
 /// twice. On one machine results are the same every time.
 #include <Eigen/Core>
 
+#include <complex>
+
 namespace hydro {
 
 /// AᵀB of shape (m, n), for A of shape (k, m) and B of shape (k, n). Columns may stand apart; rows are adjacent. Each
 /// entry is off by at most k ε Σ|a||b| (Higham 2002, section 3.5), with ε = 1.1e-16.
 Eigen::MatrixXd transposed_product(const Eigen::Ref<const Eigen::MatrixXd>& A,
                                    const Eigen::Ref<const Eigen::MatrixXd>& B);
+
+/// Complex numbers whose rows are adjacent: many columns of which each row is one thing.
+using RowMajorXcd = Eigen::Matrix<std::complex<double>, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+/// out += A B, for A of shape (m, k) with adjacent columns' entries, B (k, n) and out (m, n). `out` must not overlap A
+/// or B. Each entry is off by at most 2k ε Σ|a||b|.
+void add_product(const Eigen::Ref<const Eigen::MatrixXcd>& A, const Eigen::Ref<const RowMajorXcd>& B,
+                 Eigen::Ref<RowMajorXcd> out);
 
 }  // namespace hydro

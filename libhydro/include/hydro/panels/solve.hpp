@@ -3,7 +3,7 @@
 ///
 /// Green's theorem for the potential on flat panels, with the Green function of a free surface over water of any depth.
 /// Panels are those of the mesh: two triangles in one plane make one of four corners, what is above z = 0 is cut off.
-/// Equations (G1)-(G17) are derived and sourced in docs/theory/panels.md.
+/// Equations (G1)-(G20) are derived and sourced in docs/theory/panels.md.
 #include <Eigen/Core>
 
 #include <functional>
@@ -24,6 +24,14 @@ struct HullBody {
   hydrostatics::Hull hull;
 };
 
+/// How hulls feel each other.
+enum class Interaction {
+  automatic,      ///< whichever takes less time, where hulls stand apart
+  panels,         ///< all panels in one set of equations: hulls may be as near as their panels are small
+  partial_waves,  ///< each kind of hull alone, and the partial waves that it sends out and receives: for many hulls,
+                  ///< the circles about which must be apart (G18)
+};
+
 struct Options {
   /// Largest error of A, B and X by the size of panels that is accepted, an entry being measured against its two modes
   /// (P11). Panels are then refined until the estimate is below it, and the values are those of panels of no size,
@@ -32,6 +40,7 @@ struct Options {
   /// At how many frequencies the work is repeated with every panel cut in four; 0: none. One costs as much as 16 to 64.
   /// With a tolerance: to begin with, and five at least.
   int refined_frequencies = 0;
+  Interaction interaction = Interaction::automatic;
   /// Panels on the water inside the hull, which remove irregular frequencies.
   bool lid = true;
   /// Frequencies that are solved at a time; the result does not depend on it. 0: as many as the machine has cores.
@@ -58,6 +67,9 @@ struct SelfCheck {
   int panels = 0;  ///< under water
   int lid_panels = 0;
   int planes_of_symmetry = 0;  ///< 0, 1 or 2: found in the mesh, and used
+  int kinds = 0;               ///< of hulls, each solved once; 0: all panels together
+  int partial_waves = 0;       ///< between hulls, a hull at most; 0: all panels together
+  double truncation = 0;       ///< part of the estimate: by the partial waves that are left out, measured by more
 };
 
 struct Solution {
@@ -73,6 +85,7 @@ struct Cost {
   int refined_unknowns;  ///< of the refined mesh; 0: none
   double bytes;          ///< of working memory, all threads together, estimated
   double seconds;        ///< estimated; good to a factor of three
+  int partial_waves;     ///< between hulls, a hull at most; 0: all panels together
 };
 
 /// A, B and X of `bodies` at the frequencies `omega` (rad/s, increasing) for waves going towards `heading` (rad,

@@ -1,0 +1,96 @@
+#include "discretisation.hpp"
+
+#include <cmath>
+
+#include "controlled.hpp"
+#include "hull_array.hpp"
+#include "refine.hpp"
+#include "request.hpp"
+
+namespace hydro::panels {
+namespace {
+
+/// All panels in one set of equations.
+class Together : public Discretisation {
+ public:
+  Together(PanelMesh mesh, const std::vector<HullBody>& bodies, const Water& water)
+      : mesh_(std::move(mesh)), bodies_(bodies), water_(water) {}
+
+  std::unique_ptr<const Solver> solver() const override { return std::make_unique<Model>(mesh_, bodies_, water_); }
+  std::unique_ptr<const Discretisation> refined() const override { return with(panels::refined(mesh_)); }
+  std::unique_ptr<const Discretisation> graded(double highest) const override {
+    return with(first_mesh(mesh_, water_, highest));
+  }
+  void require_short_panels(double highest) const override { panels::require_short_panels(mesh_, water_, highest); }
+  Cost cost(const std::vector<double>& omega, std::size_t headings, int threads, int refined) const override {
+    return cost_of(mesh_, bodies_.size(), omega.size(), headings, threads, refined);
+  }
+  bool has_zero() const override { return water_.depth.is_infinite(); }
+  double length() const override { return std::sqrt(wet_area(mesh_) / static_cast<double>(bodies_.size())); }
+  void describe(SelfCheck& check) const override {
+    check.panels = mesh_.hull_panels();
+    check.lid_panels = mesh_.lid_panels();
+    check.planes_of_symmetry = static_cast<int>(mesh_.images.size()) / 2;
+  }
+
+ private:
+  std::unique_ptr<const Discretisation> with(PanelMesh mesh) const {
+    return std::make_unique<Together>(std::move(mesh), bodies_, water_);
+  }
+  PanelMesh mesh_;
+  const std::vector<HullBody>& bodies_;
+  Water water_;
+};
+
+std::unique_ptr<const Discretisation> together(const std::vector<HullBody>& bodies, const Water& water,
+                                               const Options& options, bool are_apart) {
+  PanelMesh mesh = panel_mesh(bodies, water.depth, options.lid);
+  if (!are_apart) require_apart(mesh, bodies);
+  return std::make_unique<Together>(std::move(mesh), bodies, water);
+}
+
+std::unique_ptr<const Discretisation> apart(const std::vector<HullBody>& bodies, const Water& water,
+                                            const Options& options) {
+  // Of the tolerance, as between cylinders; without one what panels leave is a percent or so.
+  constexpr double share = 0.2, usual = 1e-3;
+  return std::make_unique<HullArray>(bodies, water, options.tolerance ? share * *options.tolerance : usual,
+                                     options.lid);
+}
+
+}  // namespace
+
+Cost cost_as_asked(const Discretisation& given, const std::vector<double>& omega, std::size_t headings,
+                   const Options& options) {
+  if (!options.tolerance) return given.cost(omega, headings, options.threads, options.refined_frequencies);
+  return given.graded(omega.back())->cost(omega, headings, options.threads, first_samples(options));
+}
+
+PanelMesh first_mesh(const PanelMesh& given, const Water& water, double highest) {
+  constexpr int gradings = 2;       // edge panels a quarter as wide: more is not seen beside the others' error
+  constexpr int most_halvings = 6;  // 4096 panels for one: what is longer still is refused
+  PanelMesh mesh = graded(given, gradings);
+  for (int i = 0; i < most_halvings && too_long(mesh, water, highest); ++i) mesh = refined(mesh);
+  return mesh;
+}
+
+// Partial waves have an error of their own and need circles that are apart: where all panels together take about as
+// long, these are taken. So many that nobody would solve them together are not even looked at.
+std::unique_ptr<const Discretisation> discretised(const std::vector<HullBody>& bodies, const Water& water,
+                                                  const std::vector<double>& omega, std::size_t headings,
+                                                  const Options& options) {
+  constexpr double worth = 2;
+  constexpr int far_too_many = 20000;  // panels
+  require(!bodies.empty(), "there is no body");
+  if (options.interaction == Interaction::partial_waves) return apart(bodies, water, options);
+  const bool are_apart = bodies.size() == 1 || !too_near(places_of(bodies));
+  if (options.interaction == Interaction::panels || bodies.size() == 1 || !are_apart)
+    return together(bodies, water, options, are_apart);
+  auto each = apart(bodies, water, options);
+  const Cost of_each = cost_as_asked(*each, omega, headings, options);
+  if (of_each.panels > far_too_many) return each;
+  auto all = together(bodies, water, options, are_apart);
+  return of_each.seconds * worth < cost_as_asked(*all, omega, headings, options).seconds ? std::move(each)
+                                                                                         : std::move(all);
+}
+
+}  // namespace hydro::panels

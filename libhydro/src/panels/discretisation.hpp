@@ -1,0 +1,59 @@
+#pragma once
+/// \file  Panels of all hulls, and by which equations they are solved. Not installed.
+#include <memory>
+
+#include "panel_mesh.hpp"
+
+namespace hydro::panels {
+
+/// The answer at one frequency: (6N, 6N) and (6N, headings). Far: from the waves that motions make (G14).
+struct OneFrequency {
+  Eigen::MatrixXd A, B, B_far;
+  Eigen::MatrixXcd X, X_far;
+  int partial_waves = 0;  ///< a hull; 0: all panels together
+};
+
+/// Solves frequency by frequency; from several threads at a time.
+class Solver {
+ public:
+  virtual ~Solver() = default;
+  virtual OneFrequency at(double omega, const std::vector<double>& heading) const = 0;
+  /// A at K = ω²/g = +∞, or at 0 where the discretisation has that.
+  virtual Eigen::MatrixXd added_mass_limit(double K) const = 0;
+};
+
+/// Panels of one size, before anything is computed from them.
+class Discretisation {
+ public:
+  virtual ~Discretisation() = default;
+  virtual std::unique_ptr<const Solver> solver() const = 0;
+  /// Every panel cut in four.
+  virtual std::unique_ptr<const Discretisation> refined() const = 0;
+  /// The coarsest that an error is controlled with: at edges panels are a quarter as wide, and no panel that waves
+  /// reach is longer than waves of the frequency `highest` allow.
+  virtual std::unique_ptr<const Discretisation> graded(double highest) const = 0;
+  /// \throws InputError if panels are longer than waves of the frequency `highest` allow
+  virtual void require_short_panels(double highest) const = 0;
+  /// Of answers at `omega`, and of these again with every panel cut in four at so many frequencies.
+  virtual Cost cost(const std::vector<double>& omega, std::size_t headings, int threads, int refined) const = 0;
+  virtual bool has_zero() const = 0;
+  virtual double length() const = 0;  ///< the side of a square of the mean wet area of a hull, m
+  /// Numbers of panels, planes and partial waves.
+  virtual void describe(SelfCheck& check) const = 0;
+  /// To measure what is lost by a finite number of partial waves; none where there are none.
+  virtual std::unique_ptr<const Solver> with_more_partial_waves() const { return nullptr; }
+};
+
+/// Of `bodies` by the equations that `options` and cost ask for. `bodies` must outlive it.
+std::unique_ptr<const Discretisation> discretised(const std::vector<HullBody>& bodies, const Water& water,
+                                                  const std::vector<double>& omega, std::size_t headings,
+                                                  const Options& options);
+
+/// Of solve(), with a tolerance of its first two meshes.
+Cost cost_as_asked(const Discretisation& given, const std::vector<double>& omega, std::size_t headings,
+                   const Options& options);
+
+/// The coarsest mesh that an error is controlled with, as Discretisation::graded().
+PanelMesh first_mesh(const PanelMesh& given, const Water& water, double highest);
+
+}  // namespace hydro::panels
