@@ -33,23 +33,19 @@ constexpr double of_roughness = 4;
 struct Level {
   std::unique_ptr<const Discretisation> mesh;
   std::unique_ptr<const Solver> solver;
-  std::vector<std::optional<OneFrequency>> at;
-  std::optional<MatrixXd> A_inf, A_zero;
+  std::vector<std::optional<Extrapolated>> at;
+  std::optional<Extrapolated> inf, zero;
 };
 
-/// What is lost by panels' size, by refining at some frequencies only, and by the partial waves that are left out
-/// between hulls, relative (P11).
-struct Estimate {
-  double panels = 0, interpolation = 0, truncation = 0;
-  double total() const { return panels + interpolation + truncation; }
-};
+using Limit = std::optional<Extrapolated> Level::*;
+constexpr double infinite = std::numeric_limits<double>::infinity();
 
 class Ladder {
  public:
   Ladder(std::unique_ptr<const Discretisation> first, const std::vector<double>& omega,
          const std::vector<double>& heading, const Options& options)
       : omega_(omega), heading_(heading), options_(options) {
-    wanted_ = first_samples(options);
+    wanted_ = first->varies_smoothly() ? first_samples(options) : static_cast<int>(omega.size());
     add(first->refined());
     more_ = first->with_more_partial_waves();
     more_waves_.resize(frequencies_of_more_waves().size());
@@ -58,10 +54,8 @@ class Ladder {
 
   /// Everything that is wanted and not known yet.
   void solve();
-  Work work() const;
-  Estimate estimate(const Work& w) const;
-  /// Of what is added to the first mesh, interpolated.
-  double interpolation_error(const Sizes& size) const;
+  /// The answers, extrapolated, and their error in `estimate`.
+  Work work(Estimate& estimate) const;
 
   bool samples_all() const { return samples().size() == omega_.size(); }
   void double_samples() { wanted_ = 2 * wanted_ - 1; }
@@ -102,9 +96,20 @@ class Ladder {
     constexpr int looks = 3;
     return more_ ? potential::spread(omega_.size(), looks, omega_.size() - 1) : std::vector<std::size_t>{};
   }
-  OneFrequency step(std::size_t frequency) const;
-  std::vector<OneFrequency> corrections() const;
+  Extrapolated step(std::size_t frequency) const;
+  Extrapolated step(Limit limit) const;
+  std::vector<Extrapolated> corrections() const;
   std::vector<double> sample_omega() const;
+  const Level& first() const { return levels_.front(); }
+  const Solver& solver() const { return *first().solver; }
+  OneFrequency answer(std::size_t frequency, const Extrapolated& from) const {
+    return solver().answer(omega_[frequency], heading_, from);
+  }
+  std::vector<OneFrequency> answers(const std::vector<Extrapolated>& of_each) const;
+  std::optional<MatrixXd> limit(Limit which, double omega, const Sizes& size, double& doubtful) const;
+  Estimate estimate(const Work& w, const Sizes& size) const;
+  double interpolation_error(const Work& w, const Sizes& size) const;
+  double roughness() const;
 
   const std::vector<double>&omega_, &heading_;
   const Options& options_;
@@ -124,8 +129,8 @@ std::vector<Ladder::Piece> Ladder::missing() {
     Level& level = levels_[l];
     for (const std::size_t i : l == 0 ? potential::spread(n, static_cast<int>(n), 0) : samples())
       if (!level.at[i]) out.push_back({&level, i});
-    if (!level.A_inf) out.push_back({&level, n});
-    if (!level.A_zero && level.mesh->has_zero()) out.push_back({&level, n + 1});
+    if (!level.inf) out.push_back({&level, n});
+    if (!level.zero && level.mesh->has_zero()) out.push_back({&level, n + 1});
   }
   return out;
 }
@@ -138,11 +143,11 @@ void Ladder::do_piece(const Piece& piece) {
   const std::size_t n = omega_.size();
   const Solver& solver = *piece.level->solver;
   if (piece.at < n)
-    piece.level->at[piece.at] = solver.at(omega_[piece.at], heading_);
+    piece.level->at[piece.at] = solver.solved(omega_[piece.at], heading_);
   else if (piece.at == n)
-    piece.level->A_inf = solver.added_mass_limit(std::numeric_limits<double>::infinity());
+    piece.level->inf = solver.solved(infinite, {});
   else
-    piece.level->A_zero = solver.added_mass_limit(0);
+    piece.level->zero = solver.solved(0, {});
 }
 
 void Ladder::solve() {
@@ -157,17 +162,22 @@ void Ladder::solve() {
   });
 }
 
-OneFrequency Ladder::step(std::size_t frequency) const {
-  std::vector<const OneFrequency*> all;
+Extrapolated Ladder::step(std::size_t frequency) const {
+  std::vector<const Extrapolated*> all;
   for (const Level& level : levels_) all.push_back(&*level.at[frequency]);
   return step_to_the_limit(all);
 }
 
+Extrapolated Ladder::step(Limit limit) const {
+  std::vector<const Extrapolated*> all;
+  for (const Level& level : levels_) all.push_back(&*(level.*limit));
+  return step_to_the_limit(all);
+}
+
 /// What is added to the first mesh, at the samples.
-std::vector<OneFrequency> Ladder::corrections() const {
-  std::vector<OneFrequency> out;
-  for (const std::size_t i : samples())
-    out.push_back(sum(sum(*levels_.back().at[i], -1, *levels_.front().at[i]), 1, step(i)));
+std::vector<Extrapolated> Ladder::corrections() const {
+  std::vector<Extrapolated> out;
+  for (const std::size_t i : samples()) out.push_back(sum(sum(*levels_.back().at[i], -1, *first().at[i]), 1, step(i)));
   return out;
 }
 
@@ -177,75 +187,109 @@ std::vector<double> Ladder::sample_omega() const {
   return out;
 }
 
-OneFrequency weighted(const std::vector<OneFrequency>& values, const std::vector<double>& weights) {
-  OneFrequency out = sum(values.front(), weights.front() - 1, values.front());
+Extrapolated weighted(const std::vector<Extrapolated>& values, const std::vector<double>& weights) {
+  Extrapolated out = sum(values.front(), weights.front() - 1, values.front());
   for (std::size_t i = 1; i < values.size(); ++i)
     if (weights[i] != 0) out = sum(out, weights[i], values[i]);
   return out;
 }
 
-Work Ladder::work() const {
+/// Of all frequencies, several at a time.
+std::vector<OneFrequency> Ladder::answers(const std::vector<Extrapolated>& of_each) const {
+  std::vector<OneFrequency> out(of_each.size());
+  in_parallel(out.size(), potential::thread_count(options_.threads, out.size()),
+              [&](std::size_t i) { out[i] = answer(i, of_each[i]); });
+  return out;
+}
+
+/// A in a limit, and by how much its last step changed it.
+std::optional<MatrixXd> Ladder::limit(Limit which, double omega, const Sizes& size, double& doubtful) const {
+  if (!(first().*which)) return {};
+  const Extrapolated& finest = *(levels_.back().*which);
+  const MatrixXd A = solver().added_mass(omega, sum(finest, 1, step(which)));
+  doubtful = std::max(doubtful, potential::relative_size(A - solver().added_mass(omega, finest), size.A));
+  return A;
+}
+
+Work Ladder::work(Estimate& e) const {
   Work w;
-  const std::vector<OneFrequency> correction = corrections();
+  const std::vector<Extrapolated> correction = corrections();
   const std::vector<double> nodes = sample_omega();
+  std::vector<Extrapolated> value;
   for (std::size_t i = 0; i < omega_.size(); ++i)
-    w.results.push_back(sum(*levels_.front().at[i], 1, weighted(correction, cubic_weights(nodes, omega_[i]))));
-  std::vector<MatrixXd> inf, zero;
-  for (const Level& level : levels_) {
-    inf.push_back(*level.A_inf);
-    if (level.A_zero) zero.push_back(*level.A_zero);
-  }
-  w.A_inf = inf.back() + step_to_the_limit(inf);
-  if (!zero.empty()) w.A_zero = zero.back() + step_to_the_limit(zero);
-  const Discretisation& first = *levels_.front().mesh;
-  w.check = self_check(w.results, first.length());
-  const Estimate e = estimate(w);
+    value.push_back(sum(*first().at[i], 1, weighted(correction, cubic_weights(nodes, omega_[i]))));
+  w.results = answers(value);
+  w.check = self_check(w.results, first().mesh->length());
+  const Sizes size = sizes(w.results, w.check.length);
+  e = estimate(w, size);
+  double doubtful = 0;
+  w.A_inf = *limit(&Level::inf, infinite, size, doubtful);
+  w.A_zero = limit(&Level::zero, 0, size, doubtful);
+  e.panels = std::max(e.panels, doubtful * doubtful_share(levels_.size()));
   w.check.estimate = e.total();
   w.check.interpolation = e.interpolation;
   w.check.truncation = e.truncation;
   w.check.refined_omega = nodes;
   for (const Level& level : levels_) w.check.extrapolated_from.push_back(panels_of(level));
-  first.describe(w.check);
+  first().mesh->describe(w.check);
   return w;
 }
 
-Estimate Ladder::estimate(const Work& w) const {
-  const Sizes size = sizes(w.results, w.check.length);
+Estimate Ladder::estimate(const Work& w, const Sizes& size) const {
   Estimate e;
-  for (const std::size_t i : samples()) e.panels = std::max(e.panels, largest(step(i), size));
-  const auto limit = [&](std::optional<MatrixXd> Level::*which) {
-    std::vector<MatrixXd> values;
-    for (const Level& level : levels_) values.push_back(*(level.*which));
-    e.panels = std::max(e.panels, potential::relative_size(step_to_the_limit(values), size.A));
-  };
-  limit(&Level::A_inf);
-  if (w.A_zero) limit(&Level::A_zero);
-  e.panels *= doubtful_share(levels_.size());
-  if (!samples_all()) e.interpolation = interpolation_error(size);
-  for (std::size_t i = 0; i < more_waves_.size(); ++i)
-    e.truncation = std::max(
-        e.truncation, largest(sum(*more_waves_[i], -1, *levels_.front().at[frequencies_of_more_waves()[i]]), size));
+  for (const std::size_t i : samples()) {
+    const OneFrequency finest = answer(i, *levels_.back().at[i]);
+    e.panels = std::max(e.panels, doubtful_share(levels_.size()) * largest(sum(w.results[i], -1, finest), size));
+  }
+  if (!samples_all()) e.interpolation = interpolation_error(w, size);
+  const auto looks = frequencies_of_more_waves();
+  for (std::size_t k = 0; k < looks.size(); ++k) {
+    const OneFrequency fewer = answer(looks[k], *first().at[looks[k]]);
+    e.truncation = std::max(e.truncation, largest(sum(*more_waves_[k], -1, fewer), size));
+  }
   return e;
 }
 
-double Ladder::interpolation_error(const Sizes& size) const {
-  const std::vector<OneFrequency> correction = corrections();
+double Ladder::interpolation_error(const Work& w, const Sizes& size) const {
+  const std::vector<Extrapolated> correction = corrections();
+  const std::vector<std::size_t> at = samples();
   const std::vector<double> nodes = sample_omega();
-  double missed = 0, added = 0, rough = 0;
+  double missed = 0, added = 0;
   for (std::size_t s = 0; s < nodes.size(); ++s) {
-    added = std::max(added, largest(correction[s], size));
+    const Extrapolated& before = *first().at[at[s]];
+    added = std::max(added, largest(sum(w.results[at[s]], -1, answer(at[s], before)), size));
     if (s == 0 || s + 1 == nodes.size()) continue;
     const std::vector<double> others = cubic_weights(nodes, nodes[s], static_cast<int>(s));
-    missed = std::max(missed, largest(sum(correction[s], -1, weighted(correction, others)), size));
+    const OneFrequency without = answer(at[s], sum(before, 1, weighted(correction, others)));
+    missed = std::max(missed, largest(sum(w.results[at[s]], -1, without), size));
   }
-  // A resonance between nodes is seen in the values of the first mesh, which are known everywhere: what is added is
-  // taken to be a multiple as rough as they are.
-  std::vector<OneFrequency> at_nodes;
-  for (const std::size_t i : samples()) at_nodes.push_back(*levels_.front().at[i]);
-  for (std::size_t i = 0; i < omega_.size(); ++i)
-    rough = std::max(
-        rough, largest(sum(*levels_.front().at[i], -1, weighted(at_nodes, cubic_weights(nodes, omega_[i]))), size));
-  return std::max(of_omitted * missed, of_roughness * added * rough);
+  return std::max(of_omitted * missed, of_roughness * added * roughness());
+}
+
+/// A resonance between nodes is seen in the values of the first mesh, which are known everywhere: by how much their own
+/// interpolation misses them. What is added to them is taken to be a multiple as rough.
+double Ladder::roughness() const {
+  std::vector<Extrapolated> at_nodes;
+  for (const std::size_t i : samples()) at_nodes.push_back(*first().at[i]);
+  std::vector<std::vector<OneFrequency>> known, interpolated;  // [hull that stands alone][frequency]
+  for (std::size_t i = 0; i < omega_.size(); ++i) {
+    const auto here = solver().alone(omega_[i], heading_, *first().at[i]);
+    const auto by_nodes =
+        solver().alone(omega_[i], heading_, weighted(at_nodes, cubic_weights(sample_omega(), omega_[i])));
+    known.resize(here.size());
+    interpolated.resize(here.size());
+    for (std::size_t k = 0; k < here.size(); ++k) {
+      known[k].push_back(here[k]);
+      interpolated[k].push_back(by_nodes[k]);
+    }
+  }
+  double rough = 0;
+  for (std::size_t k = 0; k < known.size(); ++k) {
+    const Sizes size = sizes(known[k], first().mesh->length());
+    for (std::size_t i = 0; i < omega_.size(); ++i)
+      rough = std::max(rough, largest(sum(known[k][i], -1, interpolated[k][i]), size));
+  }
+  return rough;
 }
 
 std::string by_truncation(double truncation) {
@@ -268,9 +312,9 @@ Work controlled_work(const Discretisation& given, const std::vector<double>& ome
   Ladder ladder(given.graded(omega.back()), omega, heading, options);
   while (true) {
     ladder.solve();
-    Work w = ladder.work();
+    Estimate e;
+    Work w = ladder.work(e);
     const double tolerance = *options.tolerance;
-    const Estimate e = ladder.estimate(w);
     if (e.total() <= tolerance) return w;
     const bool more_samples = !ladder.samples_all() && (e.interpolation >= e.panels || e.panels < tolerance / 2);
     if (more_samples)

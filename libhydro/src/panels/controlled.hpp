@@ -7,6 +7,13 @@
 
 namespace hydro::panels {
 
+/// What is lost by panels' size, by refining at some frequencies only, and by the partial waves that are left out
+/// between hulls, relative (P11).
+struct Estimate {
+  double panels = 0, interpolation = 0, truncation = 0;
+  double total() const { return panels + interpolation + truncation; }
+};
+
 /// What a solution is filled from.
 struct Work {
   std::vector<OneFrequency> results;  ///< of each frequency

@@ -10,13 +10,39 @@
 namespace hydro::panels {
 namespace {
 
+/// Answers are extrapolated as they are.
+class AnswersOfModel : public Solver {
+ public:
+  AnswersOfModel(PanelMesh mesh, const std::vector<HullBody>& bodies, const Water& water)
+      : model_(std::move(mesh), bodies, water) {}
+
+  Extrapolated solved(double omega, const std::vector<double>& heading) const override {
+    if (omega == 0 || std::isinf(omega)) return {model_.added_mass_limit(omega)};
+    const OneFrequency a = model_.at(omega, heading);
+    return {a.A, a.B, a.B_far, a.X, a.X_far};
+  }
+  OneFrequency answer(double, const std::vector<double>&, const Extrapolated& from) const override {
+    return {from[0].real(), from[1].real(), from[2].real(), from[3], from[4]};
+  }
+  Eigen::MatrixXd added_mass(double, const Extrapolated& from) const override { return from[0].real(); }
+  std::vector<OneFrequency> alone(double omega, const std::vector<double>& heading,
+                                  const Extrapolated& from) const override {
+    return {answer(omega, heading, from)};
+  }
+
+ private:
+  Model model_;
+};
+
 /// All panels in one set of equations.
 class Together : public Discretisation {
  public:
   Together(PanelMesh mesh, const std::vector<HullBody>& bodies, const Water& water)
       : mesh_(std::move(mesh)), bodies_(bodies), water_(water) {}
 
-  std::unique_ptr<const Solver> solver() const override { return std::make_unique<Model>(mesh_, bodies_, water_); }
+  std::unique_ptr<const Solver> solver() const override {
+    return std::make_unique<AnswersOfModel>(mesh_, bodies_, water_);
+  }
   std::unique_ptr<const Discretisation> refined() const override { return with(panels::refined(mesh_)); }
   std::unique_ptr<const Discretisation> graded(double highest) const override {
     return with(first_mesh(mesh_, water_, highest));
@@ -50,10 +76,10 @@ std::unique_ptr<const Discretisation> together(const std::vector<HullBody>& bodi
 }
 
 std::unique_ptr<const Discretisation> apart(const std::vector<HullBody>& bodies, const Water& water,
-                                            const Options& options) {
+                                            const std::vector<double>& omega, const Options& options) {
   // Of the tolerance, as between cylinders; without one what panels leave is a percent or so.
   constexpr double share = 0.2, usual = 1e-3;
-  return std::make_unique<HullArray>(bodies, water, options.tolerance ? share * *options.tolerance : usual,
+  return std::make_unique<HullArray>(bodies, water, omega, options.tolerance ? share * *options.tolerance : usual,
                                      options.lid);
 }
 
@@ -81,11 +107,11 @@ std::unique_ptr<const Discretisation> discretised(const std::vector<HullBody>& b
   constexpr double worth = 2;
   constexpr int far_too_many = 20000;  // panels
   require(!bodies.empty(), "there is no body");
-  if (options.interaction == Interaction::partial_waves) return apart(bodies, water, options);
+  if (options.interaction == Interaction::partial_waves) return apart(bodies, water, omega, options);
   const bool are_apart = bodies.size() == 1 || !too_near(places_of(bodies));
   if (options.interaction == Interaction::panels || bodies.size() == 1 || !are_apart)
     return together(bodies, water, options, are_apart);
-  auto each = apart(bodies, water, options);
+  auto each = apart(bodies, water, omega, options);
   const Cost of_each = cost_as_asked(*each, omega, headings, options);
   if (of_each.panels > far_too_many) return each;
   auto all = together(bodies, water, options, are_apart);

@@ -13,13 +13,26 @@ struct OneFrequency {
   int partial_waves = 0;  ///< a hull; 0: all panels together
 };
 
-/// Solves frequency by frequency; from several threads at a time.
+/// What is extrapolated to panels of no size, entry by entry: the answers, or what kinds of hulls do to waves.
+using Extrapolated = std::vector<Eigen::MatrixXcd>;
+
+/// Solves frequency by frequency; from several threads at a time. Frequencies may be +∞, and 0 where has_zero().
 class Solver {
  public:
   virtual ~Solver() = default;
-  virtual OneFrequency at(double omega, const std::vector<double>& heading) const = 0;
-  /// A at K = ω²/g = +∞, or at 0 where the discretisation has that.
-  virtual Eigen::MatrixXd added_mass_limit(double K) const = 0;
+  virtual Extrapolated solved(double omega, const std::vector<double>& heading) const = 0;
+  /// The answer that solved() means; omega > 0 and finite.
+  virtual OneFrequency answer(double omega, const std::vector<double>& heading, const Extrapolated& from) const = 0;
+  /// A that solved() means in a limit.
+  virtual Eigen::MatrixXd added_mass(double limit, const Extrapolated& from) const = 0;
+  /// The answers of hulls that stand alone, from which their own resonances are seen; of all together that one answer.
+  virtual std::vector<OneFrequency> alone(double omega, const std::vector<double>& heading,
+                                          const Extrapolated& from) const = 0;
+
+  OneFrequency at(double omega, const std::vector<double>& heading) const {
+    return answer(omega, heading, solved(omega, heading));
+  }
+  Eigen::MatrixXd added_mass_limit(double limit) const { return added_mass(limit, solved(limit, {})); }
 };
 
 /// Panels of one size, before anything is computed from them.
@@ -37,6 +50,8 @@ class Discretisation {
   /// Of answers at `omega`, and of these again with every panel cut in four at so many frequencies.
   virtual Cost cost(const std::vector<double>& omega, std::size_t headings, int threads, int refined) const = 0;
   virtual bool has_zero() const = 0;
+  /// True if what is extrapolated has the same meaning at all frequencies, so that it can be interpolated.
+  virtual bool varies_smoothly() const { return true; }
   virtual double length() const = 0;  ///< the side of a square of the mean wet area of a hull, m
   /// Numbers of panels, planes and partial waves.
   virtual void describe(SelfCheck& check) const = 0;

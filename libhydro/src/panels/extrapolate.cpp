@@ -31,13 +31,6 @@ Matrix richardson(const std::vector<const Matrix*>& v) {
   return step;
 }
 
-template <class Matrix>
-Matrix of(const std::vector<const OneFrequency*>& all, Matrix OneFrequency::*member) {
-  std::vector<const Matrix*> values;
-  for (const OneFrequency* one : all) values.push_back(&(one->*member));
-  return richardson(values);
-}
-
 }  // namespace
 
 OneFrequency sum(const OneFrequency& a, double s, const OneFrequency& b) {
@@ -45,9 +38,20 @@ OneFrequency sum(const OneFrequency& a, double s, const OneFrequency& b) {
           a.X + s * b.X, a.X_far + s * b.X_far, std::max(a.partial_waves, b.partial_waves)};
 }
 
-OneFrequency step_to_the_limit(const std::vector<const OneFrequency*>& all) {
-  return {of(all, &OneFrequency::A), of(all, &OneFrequency::B), of(all, &OneFrequency::B_far),
-          of(all, &OneFrequency::X), of(all, &OneFrequency::X_far)};
+Extrapolated sum(const Extrapolated& a, double s, const Extrapolated& b) {
+  Extrapolated out = a;
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] += s * b[i];
+  return out;
+}
+
+Extrapolated step_to_the_limit(const std::vector<const Extrapolated*>& all) {
+  Extrapolated out;
+  for (std::size_t i = 0; i < all.front()->size(); ++i) {
+    std::vector<const Eigen::MatrixXcd*> values;
+    for (const Extrapolated* one : all) values.push_back(&(*one)[i]);
+    out.push_back(richardson(values));
+  }
+  return out;
 }
 
 MatrixXd step_to_the_limit(const std::vector<MatrixXd>& all) {

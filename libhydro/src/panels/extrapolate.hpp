@@ -10,8 +10,10 @@ namespace hydro::panels {
 /// a + s b, entry by entry.
 OneFrequency sum(const OneFrequency& a, double s, const OneFrequency& b);
 
+Extrapolated sum(const Extrapolated& a, double s, const Extrapolated& b);
+
 /// What is added to the finest of two or three meshes, coarse to fine, and how much of that is doubtful.
-OneFrequency step_to_the_limit(const std::vector<const OneFrequency*>& coarse_to_fine);
+Extrapolated step_to_the_limit(const std::vector<const Extrapolated*>& coarse_to_fine);
 Eigen::MatrixXd step_to_the_limit(const std::vector<Eigen::MatrixXd>& coarse_to_fine);
 /// The error that is left, as a share of the step.
 double doubtful_share(std::size_t meshes);

@@ -90,54 +90,87 @@ std::vector<std::unique_ptr<const Model>> models_in(const Water& water, const Hu
   return out;
 }
 
-cylinders::Grouping each_by_itself(const HullPlaces& places, const PartialWaves& waves) {
+cylinders::Grouping each_by_itself(const std::vector<cylinders::Cylinder>& circle, const PartialWaves& waves) {
   cylinders::Grouping g{{}, waves.channels, waves.channels, 0, 0};
-  for (std::size_t c = 0; c < places.circle.size(); ++c) g.members.push_back({c});
-  g.steps = cylinders::expected_steps(waves.modes, places.circle);
+  for (std::size_t c = 0; c < circle.size(); ++c) g.members.push_back({c});
+  g.steps = cylinders::expected_steps(waves.modes, circle);
   return g;
 }
 
+/// What is extrapolated are T, R, E and L of each kind, one after the other.
 class ArraySolver : public Solver {
  public:
   ArraySolver(std::shared_ptr<const HullPlaces> places, std::vector<PanelMesh> mesh, const Water& water,
-              double threshold)
+              const std::vector<double>& omega, double threshold)
       : places_(std::move(places)), mesh_(std::move(mesh)), water_(water), threshold_(threshold) {
-    if (!water_.depth.is_infinite()) shared_ = models_in(water_, *places_, mesh_);
+    if (water_.depth.is_infinite()) return;
+    shared_ = models_in(water_, *places_, mesh_);
+    channels_ = channels_of_all(*places_, water_, omega, threshold);
   }
 
-  OneFrequency at(double omega, const std::vector<double>& heading) const override {
-    const PartialWaves waves = partial_waves(*places_, water_, omega, threshold_);
-    const cylinders::OneFrequency found = cylinders::answers(
-        groups(waves, omega), {omega, water_, waves.modes, heading, places_->motion,
-                               cylinders::distance_across(places_->circle), waves.channels.highest_order() + 1});
-    return {found.A, found.B, found.B_far, found.X, found.X_far, waves.channels.count()};
-  }
-  MatrixXd added_mass_limit(double K) const override {
-    ensure(!std::isfinite(K), "arrays have no limit of long waves");
-    const PartialWaves waves = partial_waves(*places_, water_, cylinders::infinite, threshold_);
-    return cylinders::added_mass_at_infinity(groups(waves, cylinders::infinite), water_, places_->motion,
-                                             cylinders::Equations::automatic);
-  }
-
- private:
-  cylinders::Groups groups(const PartialWaves& waves, double omega) const {
-    constexpr double precision = 10;  // of what passes, times the threshold: as between cylinders
+  Extrapolated solved(double omega, const std::vector<double>&) const override {
+    const PartialWaves waves = waves_at(omega);
     cylinders::require_coupling(waves.channels, "hulls", omega);
     const auto own = water_.depth.is_infinite() ? models_in(waves.water, *places_, mesh_)
                                                 : std::vector<std::unique_ptr<const Model>>{};
     const auto& models = own.empty() ? shared_ : own;
-    std::vector<std::shared_ptr<const Compound>> compound(places_->kind.size());
-    for (std::size_t c = 0; c < places_->circle.size(); ++c)
-      if (auto& of_kind = compound[places_->kind_of[c]]; !of_kind)
-        of_kind = std::make_shared<const Compound>(
-            compound_of_hull(*models[places_->kind_of[c]], waves.modes, places_->circle[c].radius, waves.channels));
-    return {places_->circle,
-            places_->kind_of,
-            places_->lattice ? &*places_->lattice : nullptr,
+    Extrapolated out;
+    for (std::size_t k = 0; k < models.size(); ++k) {
+      Compound c = compound_of_hull(*models[k], waves.modes, places_->circle_of_kind[k].radius, waves.channels);
+      for (MatrixXcd* part : {&c.T, &c.R, &c.E, &c.L}) out.push_back(std::move(*part));
+    }
+    return out;
+  }
+  OneFrequency answer(double omega, const std::vector<double>& heading, const Extrapolated& from) const override {
+    return answer_of(places_->circle, places_->kind_of, places_->lattice, places_->motion, omega, heading, from);
+  }
+  MatrixXd added_mass(double limit, const Extrapolated& from) const override {
+    ensure(std::isinf(limit), "arrays have no limit of long waves");
+    const PartialWaves waves = waves_at(limit);
+    return cylinders::added_mass_at_infinity(groups(places_->circle, places_->kind_of, places_->lattice, waves, from),
+                                             water_, places_->motion, cylinders::Equations::automatic);
+  }
+  std::vector<OneFrequency> alone(double omega, const std::vector<double>& heading,
+                                  const Extrapolated& from) const override {
+    std::vector<OneFrequency> out;
+    for (std::size_t k = 0; k < places_->kind.size(); ++k)
+      out.push_back(answer_of({places_->circle_of_kind[k]}, {k}, {}, MatrixXd::Identity(6, 6), omega, heading, from));
+    return out;
+  }
+
+ private:
+  using Circles = std::vector<cylinders::Cylinder>;
+  using Kinds = std::vector<std::size_t>;
+  using OnLattice = std::optional<cylinders::Lattice>;
+
+  PartialWaves waves_at(double omega) const {
+    PartialWaves waves = partial_waves(*places_, water_, omega, threshold_);
+    if (channels_ && std::isfinite(omega)) waves.channels = *channels_;
+    return waves;
+  }
+  cylinders::Groups groups(const Circles& circle, const Kinds& kind, const OnLattice& lattice,
+                           const PartialWaves& waves, const Extrapolated& from) const {
+    constexpr double precision = 10;  // of what passes, times the threshold: as between cylinders
+    std::vector<std::shared_ptr<const Compound>> compound;
+    for (std::size_t k = 0; k < places_->kind.size(); ++k)
+      compound.push_back(
+          std::make_shared<const Compound>(Compound{from[4 * k], from[4 * k + 1], from[4 * k + 2], from[4 * k + 3]}));
+    return {circle,
+            kind,
+            lattice ? &*lattice : nullptr,
             compound,
             waves.modes,
-            each_by_itself(*places_, waves),
+            each_by_itself(circle, waves),
             precision * threshold_};
+  }
+  OneFrequency answer_of(const Circles& circle, const Kinds& kind, const OnLattice& lattice, const MatrixXd& motion,
+                         double omega, const std::vector<double>& heading, const Extrapolated& from) const {
+    const PartialWaves waves = waves_at(omega);
+    const cylinders::OneFrequency found =
+        cylinders::answers(groups(circle, kind, lattice, waves, from),
+                           {omega, water_, waves.modes, heading, motion, cylinders::distance_across(circle),
+                            waves.channels.highest_order() + 1});
+    return {found.A, found.B, found.B_far, found.X, found.X_far, waves.channels.count()};
   }
 
   std::shared_ptr<const HullPlaces> places_;
@@ -145,6 +178,7 @@ class ArraySolver : public Solver {
   Water water_;
   double threshold_;
   std::vector<std::unique_ptr<const Model>> shared_;  // in water of finite depth
+  std::optional<Channels> channels_;                  // at all frequencies, in water of finite depth
 };
 
 }  // namespace
@@ -168,21 +202,24 @@ Compound compound_of_hull(const Model& model, const VerticalModes& modes, double
 
 HullPlaces places_of(const std::vector<HullBody>& bodies) {
   HullPlaces out;
-  std::vector<const Hull*> first;              // of each kind, as it stands
-  std::vector<cylinders::Cylinder> circle_of;  // about it
+  std::vector<const Hull*> first;       // of each kind, as it stands
+  std::vector<Eigen::Vector2d> centre;  // of the circle about it
   for (const HullBody& body : bodies) {
     const auto known =
         std::find_if(first.begin(), first.end(), [&](const Hull* h) { return are_copies(*h, body.hull); });
     const auto kind = static_cast<std::size_t>(known - first.begin());
     if (known == first.end()) {
       first.push_back(&body.hull);
-      circle_of.push_back(circle_about(body.name, body.hull));
-      const Vector3d axis(circle_of.back().centre.x(), circle_of.back().centre.y(), 0);
+      cylinders::Cylinder circle = circle_about(body.name, body.hull);
+      centre.push_back(circle.centre);
+      const Vector3d axis(circle.centre.x(), circle.centre.y(), 0);
+      circle.centre.setZero();
+      out.circle_of_kind.push_back(circle);
       out.kind.push_back({body.name, Vector3d::Zero(), {}, moved(body.hull, -axis)});
     }
     out.kind_of.push_back(kind);
-    out.circle.push_back(circle_of[kind]);
-    out.circle.back().centre += (body.hull.vertices()[0] - first[kind]->vertices()[0]).head<2>();
+    out.circle.push_back(out.circle_of_kind[kind]);
+    out.circle.back().centre = centre[kind] + (body.hull.vertices()[0] - first[kind]->vertices()[0]).head<2>();
   }
   const auto modes = 6 * static_cast<Index>(bodies.size());
   out.motion = MatrixXd::Zero(modes, modes);
@@ -213,8 +250,19 @@ PartialWaves partial_waves(const HullPlaces& places, const Water& water, double 
   return {here, std::move(modes), std::move(channels)};
 }
 
-HullArray::HullArray(const std::vector<HullBody>& bodies, const Water& water, double threshold, bool lid)
-    : places_(std::make_shared<const HullPlaces>(places_of(bodies))), water_(water), threshold_(threshold) {
+Channels channels_of_all(const HullPlaces& places, const Water& water, const std::vector<double>& omega,
+                         double threshold) {
+  Channels all{{1}};
+  for (const double w : omega) all = all.united_with(partial_waves(places, water, w, threshold).channels);
+  return all;
+}
+
+HullArray::HullArray(const std::vector<HullBody>& bodies, const Water& water, const std::vector<double>& omega,
+                     double threshold, bool lid)
+    : places_(std::make_shared<const HullPlaces>(places_of(bodies))),
+      water_(water),
+      omega_(omega),
+      threshold_(threshold) {
   if (const auto near = too_near(*places_))
     throw InputError(
         fmt::format("\"{}\" and \"{}\" are too near to each other for partial waves: their axes are {:.4g} m apart, "
@@ -225,14 +273,18 @@ HullArray::HullArray(const std::vector<HullBody>& bodies, const Water& water, do
 }
 
 HullArray::HullArray(const HullArray& other, std::vector<PanelMesh> mesh)
-    : places_(other.places_), water_(other.water_), threshold_(other.threshold_), mesh_(std::move(mesh)) {}
+    : places_(other.places_),
+      water_(other.water_),
+      omega_(other.omega_),
+      threshold_(other.threshold_),
+      mesh_(std::move(mesh)) {}
 
 std::unique_ptr<const Solver> HullArray::solver() const {
-  return std::make_unique<ArraySolver>(places_, mesh_, water_, threshold_);
+  return std::make_unique<ArraySolver>(places_, mesh_, water_, omega_, threshold_);
 }
 
 std::unique_ptr<const Solver> HullArray::with_more_partial_waves() const {
-  return std::make_unique<ArraySolver>(places_, mesh_, water_, std::pow(threshold_, 1.5));
+  return std::make_unique<ArraySolver>(places_, mesh_, water_, omega_, std::pow(threshold_, 1.5));
 }
 
 std::unique_ptr<const Discretisation> HullArray::refined() const {
@@ -295,7 +347,7 @@ Cost HullArray::cost(const std::vector<double>& omega, std::size_t headings, int
   const double multiplication = 1 / potential::multiplications_per_second();
   for (std::size_t i = 0; i < omega.size(); ++i) {
     const PartialWaves waves = partial_waves(*places_, water_, omega[i], threshold_);
-    const auto between = cylinders::equations_cost(each_by_itself(*places_, waves), places_->circle.size(),
+    const auto between = cylinders::equations_cost(each_by_itself(places_->circle, waves), places_->circle.size(),
                                                    places_->lattice ? &*places_->lattice : nullptr, columns,
                                                    cylinders::Equations::automatic);
     const auto channels = static_cast<std::size_t>(waves.channels.count());

@@ -16,11 +16,12 @@ cylinders::Compound compound_of_hull(const Model& model, const cylinders::Vertic
 
 /// Where hulls stand, and which are equal.
 struct HullPlaces {
-  std::vector<HullBody> kind;                 ///< one of each, its axis moved to the origin, which is its reference
-  std::vector<cylinders::Cylinder> circle;    ///< of each body: about its wet part
-  std::vector<std::size_t> kind_of;           ///< each body
-  Eigen::MatrixXd motion;                     ///< (6N, 6N): velocities at the axes when the bodies move
-  std::optional<cylinders::Lattice> lattice;  ///< found in the places
+  std::vector<HullBody> kind;  ///< one of each, its axis moved to the origin, which is its reference
+  std::vector<cylinders::Cylinder> circle_of_kind;  ///< about the origin
+  std::vector<cylinders::Cylinder> circle;          ///< of each body: about its wet part
+  std::vector<std::size_t> kind_of;                 ///< each body
+  Eigen::MatrixXd motion;                           ///< (6N, 6N): velocities at the axes when the bodies move
+  std::optional<cylinders::Lattice> lattice;        ///< found in the places
 };
 HullPlaces places_of(const std::vector<HullBody>& bodies);
 
@@ -39,11 +40,16 @@ struct PartialWaves {
 };
 /// `threshold`: coupling below which partial waves are left out (C11). omega may be +∞.
 PartialWaves partial_waves(const HullPlaces& places, const Water& water, double omega, double threshold);
+/// The same that serve at all of `omega`, if the depth is finite.
+cylinders::Channels channels_of_all(const HullPlaces& places, const Water& water, const std::vector<double>& omega,
+                                    double threshold);
 
 class HullArray : public Discretisation {
  public:
-  /// `threshold` as partial_waves(). \throws InputError if hulls are too near
-  HullArray(const std::vector<HullBody>& bodies, const Water& water, double threshold, bool lid);
+  /// `omega`: all that will be asked for, limits apart; `threshold` as partial_waves().
+  /// \throws InputError if hulls are too near
+  HullArray(const std::vector<HullBody>& bodies, const Water& water, const std::vector<double>& omega, double threshold,
+            bool lid);
 
   std::unique_ptr<const Solver> solver() const override;
   std::unique_ptr<const Discretisation> refined() const override;
@@ -51,6 +57,8 @@ class HullArray : public Discretisation {
   void require_short_panels(double highest) const override;
   Cost cost(const std::vector<double>& omega, std::size_t headings, int threads, int refined) const override;
   bool has_zero() const override { return false; }
+  /// In infinite depth the modes of each frequency are those of another depth.
+  bool varies_smoothly() const override { return !water_.depth.is_infinite(); }
   double length() const override;
   void describe(SelfCheck& check) const override;
   std::unique_ptr<const Solver> with_more_partial_waves() const override;
@@ -60,6 +68,7 @@ class HullArray : public Discretisation {
 
   std::shared_ptr<const HullPlaces> places_;
   Water water_;
+  std::vector<double> omega_;
   double threshold_;
   std::vector<PanelMesh> mesh_;  // of each kind
 };

@@ -7,12 +7,13 @@
 namespace hydro::panels {
 
 /// All hulls of one mesh, solved together, with all that does not depend on the frequency.
-class Model : public Solver {
+class Model {
  public:
   Model(PanelMesh mesh, const std::vector<HullBody>& bodies, const Water& water);
 
-  OneFrequency at(double omega, const std::vector<double>& heading) const override;
-  Eigen::MatrixXd added_mass_limit(double K) const override;
+  OneFrequency at(double omega, const std::vector<double>& heading) const;
+  /// A at K = ω²/g = 0 (deep water only) or +∞.
+  Eigen::MatrixXd added_mass_limit(double K) const;
 
   const PanelMesh& mesh() const { return mesh_; }
   const AllPanels& all() const { return all_; }

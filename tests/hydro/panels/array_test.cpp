@@ -175,6 +175,27 @@ TEST(HullArray, OfCylindersIsThatOfExactOnesWithinItsEstimate) {
   EXPECT_EQ(ours.check.kinds, 1);
 }
 
+/// Waves between hulls turn with the frequency, what one hull does to waves hardly: that is extrapolated, at as few
+/// frequencies as for one hull.
+TEST(HullArray, RefinesFarHullsAtFewFrequencies) {
+  std::vector<double> omega;
+  for (int i = 0; i < 13; ++i) omega.push_back(1 + 0.15 * i);
+  std::vector<HullBody> hulls;
+  std::vector<cylinders::CylinderBody> exact;
+  for (const double x : {-15.0, 15.0}) {
+    const std::string name = fmt::format("can {}", x);
+    hulls.push_back(body(name, cylinder_mesh(1, 0.8, 3, 3, 24), {x, 0, 0}));
+    exact.push_back({name, {x, 0, 0}, Vector3d(x, 0, -0.2), {{{x, 0}, 1, 0.8}}});
+  }
+  Options options = asked(Interaction::partial_waves);
+  options.tolerance = 0.03;
+  const Solution ours = solve(hulls, tank, omega, {0.3}, options);
+  const auto theirs = cylinders::solve(exact, tank, omega, {0.3}).coefficients;
+  EXPECT_EQ(ours.check.refined_omega.size(), 5);
+  EXPECT_LT(difference(ours.coefficients, theirs, ours.check.length), ours.check.estimate);
+  EXPECT_LT(ours.check.estimate, 0.03);
+}
+
 TEST(HullArray, TellsWhatPartialWavesLeaveOut) {
   const std::vector<HullBody> hulls{body("box", box(), {-1.1, 0, 0}), body("same", box(), {1.1, 0, 0})};
   Options options = asked(Interaction::partial_waves);
