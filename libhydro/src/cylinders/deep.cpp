@@ -16,10 +16,10 @@ constexpr double least_depths = 8;  // … and 6e-5
 Water effective_water(const std::vector<CylinderBody>& bodies, const Water& water, double omega) {
   std::vector<Cylinder> all;
   for (const CylinderBody& body : bodies) all.insert(all.end(), body.cylinders.begin(), body.cylinders.end());
-  return effective_water(all, water, omega);
+  return effective_water(all, water, omega, deep_sizes);
 }
 
-Water effective_water(const std::vector<Cylinder>& all, const Water& water, double omega) {
+Water effective_water(const std::vector<Cylinder>& all, const Water& water, double omega, double sizes) {
   if (!water.depth.is_infinite()) return water;
   double size = 0, across = 0;
   for (const Cylinder& c : all) {
@@ -35,7 +35,7 @@ Water effective_water(const std::vector<Cylinder>& all, const Water& water, doub
                      fmt::format("state the depth, or ask for frequencies from {:.4g} rad/s",
                                  std::sqrt(least_depths / most * water.gravity)));
   Water finite = water;
-  finite.depth = WaterDepth::from_metres(std::max({deep_sizes * size, 2 * across, std::min(wave_depths / K, most)}));
+  finite.depth = WaterDepth::from_metres(std::max({sizes * size, 2 * across, std::min(wave_depths / K, most)}));
   return finite;
 }
 

@@ -245,7 +245,7 @@ Estimate Ladder::estimate(const Work& w, const Sizes& size) const {
   const auto looks = frequencies_of_more_waves();
   for (std::size_t k = 0; k < looks.size(); ++k) {
     const OneFrequency fewer = answer(looks[k], *first().at[looks[k]]);
-    e.truncation = std::max(e.truncation, largest(sum(*more_waves_[k], -1, fewer), size));
+    e.truncation = std::max(e.truncation, truncation_of(fewer, *more_waves_[k], size));
   }
   return e;
 }

@@ -35,6 +35,10 @@ class Solver {
   Eigen::MatrixXd added_mass_limit(double limit) const { return added_mass(limit, solved(limit, {})); }
 };
 
+/// By how much lower the threshold of partial waves is where their number is tried: what is left out falls at least as
+/// the threshold.
+inline constexpr double more_partial_waves = 4;
+
 /// Panels of one size, before anything is computed from them.
 class Discretisation {
  public:
@@ -55,7 +59,7 @@ class Discretisation {
   virtual double length() const = 0;  ///< the side of a square of the mean wet area of a hull, m
   /// Numbers of panels, planes and partial waves.
   virtual void describe(SelfCheck& check) const = 0;
-  /// To measure what is lost by a finite number of partial waves; none where there are none.
+  /// With a threshold that is more_partial_waves times lower; none where there are no partial waves.
   virtual std::unique_ptr<const Solver> with_more_partial_waves() const { return nullptr; }
 };
 

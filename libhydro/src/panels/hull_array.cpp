@@ -243,10 +243,16 @@ std::optional<TooNear> too_near(const HullPlaces& places) {
 }
 
 PartialWaves partial_waves(const HullPlaces& places, const Water& water, double omega, double threshold) {
-  const Water here = cylinders::effective_water(places.circle, water, omega);
+  constexpr double deep = 15;  // sizes: the bed is felt by 3e-4
+  const Water here = cylinders::effective_water(places.circle, water, omega, deep);
   VerticalModes modes = cylinders::modes_that_may_couple(places.circle, here, omega);
+  // In deep water many weak modes add up: a threshold of 1e-3 left out 1e-4 in four radii of depth, 0.016 in ninety.
+  constexpr double shallow = 10;  // radii
+  double largest = 0;
+  for (const cylinders::Cylinder& c : places.circle_of_kind) largest = std::max(largest, c.radius);
+  const double weakest = threshold * std::min(1.0, shallow * largest / here.depth.metres());
   Channels channels =
-      cylinders::coupled_channels(places.circle, modes, threshold, [](std::size_t, std::size_t) { return true; });
+      cylinders::coupled_channels(places.circle, modes, weakest, [](std::size_t, std::size_t) { return true; });
   return {here, std::move(modes), std::move(channels)};
 }
 
@@ -268,7 +274,10 @@ HullArray::HullArray(const std::vector<HullBody>& bodies, const Water& water, co
         fmt::format("\"{}\" and \"{}\" are too near to each other for partial waves: their axes are {:.4g} m apart, "
                     "the circles about what is under water have radii of {:.4g} m together",
                     bodies[near->first].name, bodies[near->second].name, near->distance, near->radii),
-        {}, "move them apart, or solve all panels together");
+        {},
+        "move them apart, or solve all panels together: mesh_interaction = \"panels\" in a scene, --interaction panels "
+        "of "
+        "froude bem solve");
   for (const HullBody& kind : places_->kind) mesh_.push_back(panel_mesh({kind}, water.depth, lid));
 }
 
@@ -284,7 +293,7 @@ std::unique_ptr<const Solver> HullArray::solver() const {
 }
 
 std::unique_ptr<const Solver> HullArray::with_more_partial_waves() const {
-  return std::make_unique<ArraySolver>(places_, mesh_, water_, omega_, std::pow(threshold_, 1.5));
+  return std::make_unique<ArraySolver>(places_, mesh_, water_, omega_, threshold_ / more_partial_waves);
 }
 
 std::unique_ptr<const Discretisation> HullArray::refined() const {

@@ -83,6 +83,10 @@ double estimate_of(const std::vector<OneFrequency>& results, const std::vector<O
   return coarse_over_change * change;
 }
 
+double truncation_of(const OneFrequency& fewer, const OneFrequency& more, const Sizes& size) {
+  return largest(sum(more, -1, fewer), size) / (1 - 1 / more_partial_waves);
+}
+
 double difference(const potential::Coefficients& c, const potential::Coefficients& reference, double length) {
   require(c.omega == reference.omega && c.heading == reference.heading && c.modes() == reference.modes(),
           "coefficients are compared at the same frequencies and headings, of as many modes");

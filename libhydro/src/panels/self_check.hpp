@@ -21,4 +21,7 @@ SelfCheck self_check(const std::vector<OneFrequency>& results, double arm);
 double estimate_of(const std::vector<OneFrequency>& results, const std::vector<OneFrequency>& finer,
                    const std::vector<std::size_t>& refined, double arm);
 
+/// What the partial waves that `fewer` leaves out change, from the same with more of them.
+double truncation_of(const OneFrequency& fewer, const OneFrequency& more, const Sizes& size);
+
 }  // namespace hydro::panels

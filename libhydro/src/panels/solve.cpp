@@ -9,7 +9,6 @@
 #include <mutex>
 
 #include "controlled.hpp"
-#include "extrapolate.hpp"
 #include "hydro/base/dense.hpp"
 #include "hydro/base/parallel.hpp"
 #include "hydro/hydrostatics/immersion.hpp"
@@ -132,7 +131,7 @@ Work plain_work(const Discretisation& given, const std::vector<double>& omega, c
   if (fine) w.check.estimate = estimate_of(w.results, finer, again, given.length());
   const Sizes size = sizes(w.results, given.length());
   for (std::size_t i = 0; i < with_more.size(); ++i)
-    w.check.truncation = std::max(w.check.truncation, largest(sum(with_more[i], -1, w.results[again[i]]), size));
+    w.check.truncation = std::max(w.check.truncation, truncation_of(w.results[again[i]], with_more[i], size));
   w.check.estimate += w.check.truncation;
   for (const std::size_t i : again) w.check.refined_omega.push_back(omega[i]);
   return w;

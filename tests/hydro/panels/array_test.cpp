@@ -175,6 +175,17 @@ TEST(HullArray, OfCylindersIsThatOfExactOnesWithinItsEstimate) {
   EXPECT_EQ(ours.check.kinds, 1);
 }
 
+TEST(HullArray, InInfiniteDepthIsWhatAllPanelsTogetherGive) {
+  const Water deep{.density = 1000, .gravity = 9.81};
+  const std::vector<HullBody> hulls{body("box", box(), {-1.1, 0.3, 0}), body("same", box(), {0.9, -0.2, 0})};
+  const std::vector<double> omega{1.5, 2.6};
+  const Solution one = solve(hulls, deep, omega, {0.4}, asked(Interaction::panels)),
+                 each = solve(hulls, deep, omega, {0.4}, asked(Interaction::partial_waves));
+  // 0.002 by the quadrature of panels, as above; the depth that is taken for an infinite one is felt by 3e-4.
+  EXPECT_LT(difference(each.coefficients, one.coefficients, one.check.length), 4e-3);
+  EXPECT_FALSE(each.coefficients.A_zero.has_value());
+}
+
 /// Waves between hulls turn with the frequency, what one hull does to waves hardly: that is extrapolated, at as few
 /// frequencies as for one hull.
 TEST(HullArray, RefinesFarHullsAtFewFrequencies) {
