@@ -1,13 +1,30 @@
 #include <algorithm>
+#include <chrono>
 
 #include "deep.hpp"
 #include "model.hpp"
 #include "potential/solver_request.hpp"
-#include "potential/speed.hpp"
 #include "request.hpp"
 
 namespace hydro::cylinders {
 namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// Complex multiplications a second of products of matrices on this machine, one thread.
+double measured_rate() {
+  constexpr Eigen::Index size = 128;
+  const Eigen::MatrixXcd a = Eigen::MatrixXcd::Constant(size, size, {0.5, 0.1});
+  Eigen::MatrixXcd b = a;
+  double least = infinite;
+  for (int run = 0; run < 5; ++run) {
+    const auto start = Clock::now();
+    b = (a * b / static_cast<double>(size)).eval();
+    least = std::min(least, std::chrono::duration<double>(Clock::now() - start).count());
+  }
+  ensure(b.allFinite(), "products of matrices are finite");
+  return static_cast<double>(size * size * size) / least;
+}
 
 /// One model a frequency, in the water that is used for it.
 Model model_at(const std::vector<CylinderBody>& bodies, const Water& water, double omega,
@@ -41,7 +58,7 @@ Cost cost(const std::vector<CylinderBody>& bodies, const Water& water, const std
     add(omega[i], usual.doubled());
   const int threads = potential::thread_count(options.threads, omega.size());
   c.bytes = bytes * threads;
-  c.seconds = work / potential::multiplications_per_second() / threads;
+  c.seconds = work / measured_rate() / threads;
   return c;
 }
 

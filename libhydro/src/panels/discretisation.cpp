@@ -100,12 +100,12 @@ PanelMesh first_mesh(const PanelMesh& given, const Water& water, double highest)
 }
 
 // Partial waves have an error of their own and need circles that are apart: where all panels together take about as
-// long, these are taken. So many that nobody would solve them together are not even looked at.
+// long, or no time to speak of, these are taken. So many that nobody would solve them together are not even looked at.
 std::unique_ptr<const Discretisation> discretised(const std::vector<HullBody>& bodies, const Water& water,
                                                   const std::vector<double>& omega, std::size_t headings,
                                                   const Options& options) {
-  constexpr double worth = 2;
-  constexpr int far_too_many = 20000;  // panels
+  constexpr double worth = 2, noticed = 5;  // times; s
+  constexpr int far_too_many = 20000;       // panels
   require(!bodies.empty(), "there is no body");
   if (options.interaction == Interaction::partial_waves) return apart(bodies, water, omega, options);
   const bool are_apart = bodies.size() == 1 || !too_near(places_of(bodies));
@@ -115,8 +115,8 @@ std::unique_ptr<const Discretisation> discretised(const std::vector<HullBody>& b
   const Cost of_each = cost_as_asked(*each, omega, headings, options);
   if (of_each.panels > far_too_many) return each;
   auto all = together(bodies, water, options, are_apart);
-  return of_each.seconds * worth < cost_as_asked(*all, omega, headings, options).seconds ? std::move(each)
-                                                                                         : std::move(all);
+  const double of_all = cost_as_asked(*all, omega, headings, options).seconds;
+  return of_all > noticed && of_each.seconds * worth < of_all ? std::move(each) : std::move(all);
 }
 
 }  // namespace hydro::panels

@@ -8,7 +8,6 @@
 #include "cylinders/deep.hpp"
 #include "cylinders/model.hpp"
 #include "potential/solver_request.hpp"
-#include "potential/speed.hpp"
 #include "refine.hpp"
 #include "regular_waves.hpp"
 #include "request.hpp"
@@ -353,7 +352,6 @@ Cost HullArray::cost(const std::vector<double>& omega, std::size_t headings, int
   for (const PanelMesh& m : mesh_)
     if (!fine.empty()) cut.push_back(panels::refined(m));
   const double columns = static_cast<double>(places_->motion.cols()) + static_cast<double>(headings);
-  const double multiplication = 1 / potential::multiplications_per_second();
   for (std::size_t i = 0; i < omega.size(); ++i) {
     const PartialWaves waves = partial_waves(*places_, water_, omega[i], threshold_);
     const auto between = cylinders::equations_cost(each_by_itself(places_->circle, waves), places_->circle.size(),
@@ -362,7 +360,7 @@ Cost HullArray::cost(const std::vector<double>& omega, std::size_t headings, int
     const auto channels = static_cast<std::size_t>(waves.channels.count());
     const auto add = [&](const std::vector<PanelMesh>& mesh) {
       const Cost kinds = cost_of_kinds(mesh, channels, water_.depth.is_infinite());
-      out.seconds += kinds.seconds + between.work * multiplication;
+      out.seconds += kinds.seconds + between.work * multiplication_seconds;
       out.bytes = std::max(out.bytes, kinds.bytes + between.bytes);
       return kinds;
     };

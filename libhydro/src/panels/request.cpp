@@ -32,10 +32,10 @@ double bytes_of(double unknowns, double systems, double right, int threads) {
          threads * systems * unknowns * (32 * unknowns + 32 * right);
 }
 
-/// Seconds of one frequency: half a microsecond a pair of panels, half a nanosecond a step of elimination.
+/// Seconds of one frequency: half a microsecond a pair of panels, and the steps of elimination.
 double seconds_of(double unknowns, double systems, double right) {
   const double pairs = unknowns * unknowns * systems;
-  return 1e-6 * pairs + systems * unknowns * unknowns * (unknowns / 3 + right) * 1.6e-9;
+  return 1e-6 * pairs + systems * unknowns * unknowns * (unknowns / 3 + right) * multiplication_seconds;
 }
 
 }  // namespace

@@ -18,6 +18,8 @@ void require_short_panels(const PanelMesh& mesh, const Water& water, double high
 /// Of `mesh`, and of it refined at so many frequencies. `threads` as in Options.
 Cost cost_of(const PanelMesh& mesh, std::size_t bodies, std::size_t frequencies, std::size_t headings, int threads,
              int refined_frequencies);
+/// Of a complex multiplication, by which costs are compared: a choice must not hang on how busy the machine is.
+inline constexpr double multiplication_seconds = 1.6e-9;
 /// \throws InputError if the machine has less
 void require_memory(const Cost& cost);
 /// Where panels are cut in four: both ends and evenly between; a single one is the last.
