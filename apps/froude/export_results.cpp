@@ -66,14 +66,14 @@ void check(const std::vector<Export>& all) {
 }
 
 /// The part of a run that is asked for.
-struct Part {
+struct TimeWindow {
   double from = -std::numeric_limits<double>::infinity(), to = std::numeric_limits<double>::infinity();
   std::optional<double> every;
   bool is_whole() const { return !every && std::isinf(from) && std::isinf(to); }
 };
 
-Part part_of(const ExportArguments& a) {
-  Part out;
+TimeWindow window_of(const ExportArguments& a) {
+  TimeWindow out;
   if (a.from) out.from = option_si("--from", *a.from, hydro::dim::time);
   if (a.to) out.to = option_si("--to", *a.to, hydro::dim::time);
   if (a.every) {
@@ -84,22 +84,22 @@ Part part_of(const ExportArguments& a) {
 }
 
 /// The samples within; of `every` those that are nearest to the first, and to so much later again and again.
-std::vector<std::size_t> samples_of(const std::vector<double>& time, const Part& part, const Path& file) {
+std::vector<std::size_t> samples_of(const std::vector<double>& time, const TimeWindow& window, const Path& file) {
   const auto slack = [](double t) { return std::isfinite(t) ? 1e-9 * (1 + std::abs(t)) : 0; };
   std::vector<std::size_t> out;
   for (std::size_t i = 0; i < time.size(); ++i)
-    if (time[i] >= part.from - slack(part.from) && time[i] <= part.to + slack(part.to)) out.push_back(i);
+    if (time[i] >= window.from - slack(window.from) && time[i] <= window.to + slack(window.to)) out.push_back(i);
   if (out.empty())
     throw InputError("no sample lies from --from to --to", {.file = file.string()},
                      time.empty()
                          ? "run the scene again"
                          : fmt::format("the result reaches from {:.6g} to {:.6g} s", time.front(), time.back()));
-  if (!part.every) return out;
+  if (!window.every) return out;
   std::vector<std::size_t> thinned;
   const double first = time[out.front()];
   for (const std::size_t i : out) {
     // The sample is the nearest one of the record to a multiple of `every` after the first.
-    const double wanted = first + std::round((time[i] - first) / *part.every) * *part.every;
+    const double wanted = first + std::round((time[i] - first) / *window.every) * *window.every;
     const double off = std::abs(time[i] - wanted);
     const bool before_is_nearer = i > out.front() && std::abs(time[i - 1] - wanted) <= off * (1 + 1e-9);
     const bool after_is_nearer = i < out.back() && std::abs(time[i + 1] - wanted) < off * (1 - 1e-9);
@@ -127,15 +127,15 @@ void require_named(const ExportArguments& a, const Content& content, const Path&
 }
 
 /// As a table or for MATLAB.
-Report export_numbers(const ExportArguments& a, const Export& one, const Part& part) {
+Report export_numbers(const ExportArguments& a, const Export& one, const TimeWindow& window) {
   Content content = interchange::read_content(one.result);
   const auto time = std::find_if(content.arrays.begin(), content.arrays.end(),
                                  [](const auto& array) { return array.name == "time" && array.is_axis(); });
-  if (!part.is_whole()) {
+  if (!window.is_whole()) {
     if (time == content.arrays.end())
       throw InputError("--from, --to and --every are times, and this result is none in time",
                        {.file = one.result.string()}, "leave them out");
-    interchange::keep(content, "time", samples_of(time->values, part, one.result));
+    interchange::keep(content, "time", samples_of(time->values, window, one.result));
   }
   require_named(a, content, one.result);
   interchange::keep_named(content, [&](const std::string& name) { return is_named(a, name); });
@@ -173,13 +173,13 @@ scene::Scene scene_of(const ExportArguments& a, const Path& result) {
   }
 }
 
-Report export_space(const ExportArguments& a, const Export& one, const Part& part) {
+Report export_space(const ExportArguments& a, const Export& one, const TimeWindow& window) {
   if (!a.signals.empty())
     throw InputError("--signal chooses signals, and .pvd shows bodies, lines and waves", {.file = "command line"},
                      "leave it out");
   const RunResult run = read_run(one.result);
   scene::Scene scene = scene_of(a, one.result);
-  view::Frames frames{samples_of(run.time, part, one.result)};
+  view::Frames frames{samples_of(run.time, window, one.result)};
   constexpr std::size_t most = 10'000;  // a file each, and one for lines and for waves
   if (frames.count() > most)
     throw InputError(
@@ -205,13 +205,13 @@ Report export_space(const ExportArguments& a, const Export& one, const Part& par
 
 void export_results(const ExportArguments& arguments, const Console& console) {
   const std::vector<Export> all = exports_of(arguments);
-  const Part part = part_of(arguments);
+  const TimeWindow window = window_of(arguments);
   if (!arguments.format.empty()) make_folder(arguments.output);
   check(all);
   Report told;
   for (const Export& one : all)
-    told.one_of("exports", one.output.extension() == ".pvd" ? export_space(arguments, one, part)
-                                                            : export_numbers(arguments, one, part));
+    told.one_of("exports", one.output.extension() == ".pvd" ? export_space(arguments, one, window)
+                                                            : export_numbers(arguments, one, window));
   tell(told, console);
 }
 
