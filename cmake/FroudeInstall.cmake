@@ -19,6 +19,20 @@ endif()
 if(TARGET froude-validate)
   install(TARGETS froude-validate RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endif()
+# The manual page and what shells complete by, which the program itself writes, where Debian looks for them.
+install(CODE "
+  set(described \"${PROJECT_BINARY_DIR}/described\")
+  file(MAKE_DIRECTORY \"\${described}\")
+  foreach(words IN ITEMS \"froude.1|man|man/man1\" \"froude|completion;bash|bash-completion/completions\"
+                         \"_froude|completion;zsh|zsh/vendor-completions\")
+    string(REPLACE \"|\" \";\" parts \"\${words}\")
+    list(POP_FRONT parts name)
+    list(POP_BACK parts folder)
+    execute_process(COMMAND \"$<TARGET_FILE:froude>\" \${parts} OUTPUT_FILE \"\${described}/\${name}\"
+      COMMAND_ERROR_IS_FATAL ANY)
+    file(INSTALL DESTINATION \"\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_DATADIR}/\${folder}\" TYPE FILE
+      FILES \"\${described}/\${name}\")
+  endforeach()")
 install(EXPORT FroudeTargets NAMESPACE froude:: DESTINATION ${froude_package_dir})
 
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/FroudeConfig.cmake.in ${PROJECT_BINARY_DIR}/FroudeConfig.cmake

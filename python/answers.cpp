@@ -1,8 +1,11 @@
 // What else a scene is asked: responses, free motions, the water, plans, prices, fits.
+#include <sstream>
+
 #include "bindings.hpp"
 #include "compile/hulls.hpp"
 #include "computing.hpp"
 #include "fit/report.hpp"
+#include "froude/commands.hpp"
 #include "hydro/base/error.hpp"
 
 namespace froude::python {
@@ -225,10 +228,42 @@ void add_fit(py::module_& m) {
       py::arg("scene"), "froude.fit");
 }
 
+/// What `froude export --json` tells.
+std::string export_results_as(const ExportArguments& arguments) {
+  std::ostringstream told, nowhere;
+  Computing computing("export", py::none());
+  computing.of([&] {
+    export_results(arguments, Console{.out = told, .err = nowhere, .json = true});
+    return 0;
+  });
+  return told.str();
+}
+
+void add_export(py::module_& m) {
+  m.def(
+      "export",
+      [](const std::vector<std::filesystem::path>& results, const std::filesystem::path& output,
+         const std::string& form, const std::vector<std::string>& signals, const std::optional<std::string>& start,
+         const std::optional<std::string>& end, const std::optional<std::string>& every,
+         const std::optional<std::filesystem::path>& scene_folder) {
+        return export_results_as({.results = results,
+                                  .output = output,
+                                  .format = form,
+                                  .signals = signals,
+                                  .from = start,
+                                  .to = end,
+                                  .every = every,
+                                  .scene_folder = scene_folder});
+      },
+      py::arg("results"), py::arg("output"), py::arg("form"), py::arg("signals"), py::arg("start"), py::arg("end"),
+      py::arg("every"), py::arg("scene_folder"), "froude.export");
+}
+
 }  // namespace
 
 void add_answers(py::module_& m) {
   add_plan(m);
+  add_export(m);
   add_cost(m);
   add_fit(m);
   const py::arg scene("scene"), progress("progress");

@@ -321,6 +321,17 @@ struct ReportArguments {
 /// One HTML file that shows the results and needs no other. \throws hydro::InputError, also in a build without npm
 void report_results(const ReportArguments& arguments, const Console& console);
 
+struct ExportArguments {
+  std::vector<Path> results;              ///< of any command that answers (.h5, .nc, .csv)
+  Path output;                            ///< .csv, .mat or .pvd; with `format` a folder
+  std::string format = {};                ///< "csv", "matlab" or "vtk"; "": told by the name of `output`
+  std::vector<std::string> signals = {};  ///< empty: all; `*` allowed
+  std::optional<std::string> from = {}, to = {}, every = {};  ///< of results in time, e.g. "60 s"
+  std::optional<Path> scene_folder = {};  ///< where the scenes of results stood; none: beside the results
+};
+/// Results as tables, for MATLAB, and in space for ParaView.
+void export_results(const ExportArguments& arguments, const Console& console);
+
 struct WavesInfoArguments {
   Path file;                                                ///< scene, list of components, spectrum or record
   hydro::WaterDepth depth = hydro::WaterDepth::infinite();  ///< of the water, where the file does not say

@@ -8,6 +8,7 @@
 #include "froude/command_line.hpp"
 #include "froude/described.hpp"
 #include "froude/experiment_options.hpp"
+#include "froude/export_options.hpp"
 #include "froude/kept_fits.hpp"
 #include "froude/sweep_options.hpp"
 #include "froude/watched_hulls.hpp"
@@ -527,6 +528,7 @@ void describe(CLI::App& app, Request& request) {
                     false);
   add_experiment(app, request);
   add_report(app, request);
+  add_export(app, request);
   add_cost(app, request);
   add_sweep(app, request, sweep_scenes);
   add_other_programs(app);

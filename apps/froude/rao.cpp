@@ -14,7 +14,7 @@
 #include "froude/shares.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/base/types.hpp"
-#include "hydro/io/csv.hpp"
+#include "interchange/csv.hpp"
 
 namespace froude {
 namespace {
@@ -56,30 +56,6 @@ Peak peak(std::span<const std::complex<double>> values, const std::vector<double
     if (std::abs(values[i]) >= best.amplitude)
       best = {std::abs(values[i]), 2 * std::numbers::pi / omega[i], degrees(std::arg(values[i]))};
   return best;
-}
-
-/// One row a frequency; of several headings one after the other, with a column that tells which.
-void write_rao_csv(const Path& path, const Responses& r) {
-  std::vector<double> heading, omega, period;
-  for (const double h : r.heading) {
-    heading.insert(heading.end(), r.omega.size(), h);
-    omega.insert(omega.end(), r.omega.begin(), r.omega.end());
-  }
-  for (const double w : omega) period.push_back(2 * std::numbers::pi / w);
-  std::vector<std::vector<double>> numbers;
-  for (const auto& s : r.signals) {
-    numbers.push_back(amplitudes_of(s.values));
-    numbers.push_back(phases_of(s.values));
-  }
-  std::vector<hydro::io::CsvColumn> columns{{"omega", "rad/s", &omega}, {"period", "s", &period}};
-  if (r.heading.size() > 1) columns.insert(columns.begin(), {"heading", "deg", &heading});
-  for (std::size_t i = 0; i < r.signals.size(); ++i) {
-    columns.push_back({r.signals[i].name + " amplitude", r.signals[i].units, &numbers[2 * i]});
-    columns.push_back({r.signals[i].name + " phase", "deg", &numbers[2 * i + 1]});
-  }
-  hydro::io::write_csv(path, columns,
-                       {"amplitudes over that of the wave, in the unit of each column; phase leads the wave at the "
-                        "origin, Re(X exp(+i omega t))"});
 }
 
 /// One panel for each unit, so that metres and newtons do not share an axis.
@@ -188,7 +164,7 @@ void rao(const RaoArguments& arguments, const Console& console) {
   const Responses r = arguments.nondimensional ? over_wave_slope(per_metre, scene.water) : per_metre;
   shares.end("answering");
   r.write(file);
-  if (arguments.csv) write_rao_csv(*arguments.csv, r);
+  if (arguments.csv) interchange::write_csv(*arguments.csv, interchange::content_of(r));
   if (arguments.picture) plot::write_picture(*arguments.picture, figure(scene, r));
   shares.end("writing");
   Report report = report_of(scene, r, shares, file, console.json);

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "hydro/base/base64.hpp"
+
 namespace froude::html {
 namespace {
 
@@ -13,23 +15,10 @@ static_assert(std::endian::native == std::endian::little, "a report holds little
 template <class Number>
 Json array_as(const char* type, std::span<const double> values) {
   const std::vector<Number> numbers(values.begin(), values.end());
-  return {{"n", values.size()}, {type, base64(std::as_bytes(std::span(numbers)))}};
+  return {{"n", values.size()}, {type, hydro::base64(std::as_bytes(std::span(numbers)))}};
 }
 
 }  // namespace
-
-std::string base64(std::span<const std::byte> bytes) {
-  static constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string out;
-  out.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const std::size_t have = std::min<std::size_t>(3, bytes.size() - i);
-    unsigned group = 0;
-    for (std::size_t k = 0; k < 3; ++k) group = group << 8 | (k < have ? std::to_integer<unsigned>(bytes[i + k]) : 0);
-    for (std::size_t k = 0; k < 4; ++k) out += k <= have ? digits[group >> (18 - 6 * k) & 63] : '=';
-  }
-  return out;
-}
 
 Json single_array(std::span<const double> values) { return array_as<float>("f32", values); }
 Json double_array(std::span<const double> values) { return array_as<double>("f64", values); }

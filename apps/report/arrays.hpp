@@ -11,9 +11,6 @@ namespace froude::html {
 
 using Json = nlohmann::ordered_json;
 
-/// RFC 4648, section 4.
-std::string base64(std::span<const std::byte> bytes);
-
 /// {"n": how many, "f32": base64}: seven digits, enough for what is drawn.
 Json single_array(std::span<const double> values);
 /// {"n": how many, "f64": base64}: of times, whose differences must keep their digits, and of tables.

@@ -17,14 +17,27 @@ namespace hh = hydro::hydrostatics;
 struct Copies {
   int count = 0;
   Eigen::Vector3d step = Eigen::Vector3d::Zero();  ///< m
+  std::optional<int> rows;                         ///< each of `count`
+  std::optional<Eigen::Vector3d> row_step;         ///< m
 };
+constexpr int most_copies = 100'000;
 
 const Binding<Copies>& copies() {
   static const Binding<Copies> binding =
       Binding<Copies>("[body.copies]", "makes name1, name2, … of one description")
           .key(integer("count", "number of bodies").within(Limit::at_least_one), &Copies::count)
-          .at_most(100'000)
-          .key(vector("step", dim::length, "from each body to the next"), &Copies::step);
+          .at_most(most_copies)
+          .key(vector("step", dim::length, "from each body to the next"), &Copies::step)
+          .optional(integer("rows", "of so many bodies each: name1_1, name1_2, …, name2_1, …, the row first")
+                        .within(Limit::at_least_one),
+                    &Copies::rows)
+          .only_beside({"row_step"})
+          .optional(vector("row_step", dim::length, "from each row to the next"), &Copies::row_step)
+          .only_beside({"rows"})
+          .then([](const Record& record, const Copies& c) {
+            if (c.rows && *c.rows > most_copies / c.count)
+              throw record.wrong("rows", fmt::format("makes more than {} bodies", most_copies), "give fewer");
+          });
   return binding;
 }
 
@@ -284,8 +297,11 @@ std::vector<Body> build_bodies(const Record& root, Names& names) {
       add(0, one.family, Eigen::Vector3d::Zero());
       continue;
     }
-    const auto [count, step] = copies().read(record.table("copies"));
-    for (int i = 1; i <= count; ++i) add(i, fmt::format("{}{}", one.family, i), (i - 1) * step);
+    const Copies c = copies().read(record.table("copies"));
+    for (int i = 1; i <= c.count && !c.rows; ++i) add(i, fmt::format("{}{}", one.family, i), (i - 1) * c.step);
+    for (int row = 1; row <= c.rows.value_or(0); ++row)
+      for (int i = 1; i <= c.count; ++i)
+        add((row - 1) * c.count + i, grid_name(one.family, row, i), (i - 1) * c.step + (row - 1) * *c.row_step);
   }
   return bodies;
 }

@@ -86,6 +86,11 @@ const Table& current_table();
 const Binding<Scene>& ask_binding();
 const Binding<Solve>& solve_binding();
 
+/// "m2_1": the first body of the second row of the grid m.
+std::string grid_name(const std::string& family, int row, int in_row);
+/// False of bodies that stand in no grid.
+bool begins_a_row(const Body& body);
+
 /// What `between` joins; an empty one is the ground. Of neighbours both are bodies.
 struct Between {
   std::optional<int> first, second;

@@ -188,9 +188,12 @@ void check_may_turn(const Record& record, const Joint& joint, const std::vector<
 const Binding<Joint>& joint_binding() {
   static const auto binding =
       Binding<Joint>("[[joint]]", "keeps two bodies, or a body and the ground, together exactly, whatever the forces")
-          .keys({name_key("joint", "of the joint"),
-                 texts("between",
-                       "[\"a\", \"b\"], [\"ground\", \"a\"], or \"neighbours of m\": m1–m2, m2–m3, … of the copies m")})
+          .keys(
+              {name_key("joint", "of the joint"),
+               texts(
+                   "between",
+                   "[\"a\", \"b\"], [\"ground\", \"a\"], [\"a*\", \"b*\"]: the first a with the first b and so on, or "
+                   "\"neighbours of m\": m1–m2, m2–m3, … of the copies m, of a grid within each row")})
           .key(vector("at", dim::length,
                       "where the joint is at rest, global; of neighbours the first pair's, and the others' moves with "
                       "them"),

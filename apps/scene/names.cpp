@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 #include "scene/build.hpp"
 
@@ -18,7 +19,7 @@ std::vector<Between> neighbour_pairs(const Record& record, const Located<std::st
   std::vector<std::string> families;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     if (bodies[i].copy > 0) families.push_back(bodies[i].family);
-    if (bodies[i].family == family && bodies[i].copy > 1)
+    if (bodies[i].family == family && bodies[i].copy > 1 && !begins_a_row(bodies[i]))
       pairs.push_back({static_cast<int>(i) - 1, static_cast<int>(i)});
   }
   if (std::find(families.begin(), families.end(), family) != families.end()) return pairs;
@@ -28,13 +29,51 @@ std::vector<Between> neighbour_pairs(const Record& record, const Located<std::st
                                   : fmt::format("did you mean \"{}{}\"?", neighbours, near));
 }
 
+bool is_pattern(const std::string& name) { return name.find('*') != std::string::npos; }
+
+/// The first body of one pattern with the first of the other, and so on, in the order of the scene.
+std::vector<Between> pairs_of_rows(const Record& record, const std::vector<Located<std::string>>& patterns,
+                                   const std::vector<Body>& bodies) {
+  if (patterns[0].value == "ground" || patterns[1].value == "ground")
+    throw record.wrong("between", "pairs a row with the ground", "write one entry for each body");
+  std::array<std::vector<int>, 2> rows;
+  for (std::size_t k = 0; k < 2; ++k) {
+    for (std::size_t i = 0; i < bodies.size(); ++i)
+      if (matches(patterns[k].value, bodies[i].name)) rows[k].push_back(static_cast<int>(i));
+    if (rows[k].empty()) body_named(record, patterns[k], bodies);  // throws with the nearest name
+  }
+  const auto named = [&](int body) { return bodies[static_cast<std::size_t>(body)].name; };
+  const std::string how = fmt::format("\"{}\" names {} and \"{}\" names {}", patterns[0].value, rows[0].size(),
+                                      patterns[1].value, rows[1].size());
+  if (rows[0].size() != rows[1].size())
+    throw record.wrong("between", fmt::format("pairs rows of different length: {}", how),
+                       "name as many bodies with one as with the other");
+  std::vector<Between> out;
+  for (std::size_t i = 0; i < rows[0].size(); ++i) {
+    if (rows[0][i] == rows[1][i])
+      throw record.wrong("between", fmt::format("pairs \"{}\" with itself", named(rows[0][i])),
+                         "let the patterns name different bodies");
+    out.push_back({rows[0][i], rows[1][i]});
+  }
+  return out;
+}
+
 }  // namespace
+
+std::string grid_name(const std::string& family, int row, int in_row) {
+  return fmt::format("{}{}_{}", family, row, in_row);
+}
+
+bool begins_a_row(const Body& body) {
+  return body.copy > 0 && body.name != fmt::format("{}{}", body.family, body.copy) && body.name.ends_with("_1");
+}
 
 Key between_key() {
   return texts(
       "between",
-      "[\"a\", \"b\"], [\"a\", \"ground\"], or \"neighbours of m\": m1–m2, m2–m3, … of the copies m (of a single "
-      "one there are none)");
+      "[\"a\", \"b\"], [\"a\", \"ground\"], [\"a*\", \"b*\"]: the first a with the first b and so on, or "
+      "\"neighbours of m\": m1–m2, m2–m3, … of the copies m (of a single one there are none), of a grid within "
+      "each row");
 }
 
 void Names::add(const std::string& name, const Place& place) {
@@ -65,6 +104,7 @@ std::vector<Between> read_between(const Record& record, const std::vector<Body>&
                        "write [\"a\", \"b\"], [\"a\", \"ground\"] or \"neighbours of m\"");
   if (texts[0].value == "ground" && ground_first == GroundFirst::refused)
     throw record.wrong("between", "begins with the ground", "write the body first, then \"ground\"");
+  if (is_pattern(texts[0].value) || is_pattern(texts[1].value)) return pairs_of_rows(record, texts, bodies);
   const auto end = [&](const Located<std::string>& name) {
     return name.value == "ground" ? std::nullopt : std::optional<int>(body_named(record, name, bodies));
   };

@@ -17,11 +17,11 @@ from froude._froude import (
     AnswerCost, Coefficients, Cost, CostRung, Densities, Density, Estimate, Fit, InputError, Modes, NumericsError, Plan,
     PlanLine, Rao, Run, Sample, Scene, Spectrum, Sweep, Water, __version__)
 from froude.calls import (
-    coefficients, cost, fit, modes, plan, psd, rao, read, read_text, response, run, sweep, waves)
+    coefficients, cost, export, fit, modes, plan, psd, rao, read, read_text, response, run, sweep, waves)
 from froude.seas import sea, spectrum
 
 __all__ = [
     "AnswerCost", "Coefficients", "Cost", "CostRung", "Densities", "Density", "Estimate", "Fit", "InputError", "Modes",
     "NumericsError", "Plan", "PlanLine", "Rao", "Run", "Sample", "Scene", "Spectrum", "Sweep", "Water", "__version__",
-    "coefficients", "cost", "fit", "modes", "plan", "psd", "rao", "read", "read_text", "response", "run", "sea",
+    "coefficients", "cost", "export", "fit", "modes", "plan", "psd", "rao", "read", "read_text", "response", "run", "sea",
     "spectrum", "sweep", "waves"]

@@ -1,4 +1,5 @@
 """What a scene, a study, a record or a file of coefficients is asked."""
+import json
 import os
 from collections.abc import Callable, Mapping, Sequence
 from typing import Optional, Union
@@ -346,6 +347,45 @@ def psd(record: Union[_froude.Run, _froude.Water, Mapping[str, Sequence[float]],
     content = dict(record) if isinstance(record, Mapping) else record
     return _froude.psd(content, "the record" if given else record, names, segment, tapers, uneven, input, start, end,
                        confidence)
+
+
+def export(results: Union[FileName, Sequence[FileName]], output: FileName, *, form: Optional[str] = None,
+           signals: Union[str, Sequence[str]] = (), start: Optional[str] = None, end: Optional[str] = None,
+           every: Optional[str] = None, scene_folder: Optional[FileName] = None) -> list:
+    """Writes results for other programs, as docs/guide/export.md describes them.
+
+    Parameters
+    ----------
+    results : path or list of paths
+        Files that ``write(file)`` of a result or the program wrote, or tables of the program.
+    output : path
+        .csv, .mat for MATLAB or .pvd for ParaView; with `form` a folder.
+    form : {"csv", "matlab", "vtk"}, optional
+        Of several results, which then go into a folder.
+    signals : str or list of str
+        Names; ``*`` stands for any characters. All of them unless some are given.
+    start, end : str, optional
+        "60 s": of results in time, what lies before or after is left out.
+    every : str, optional
+        "0.5 s": of results in time, the samples that are nearest to so much later and later.
+    scene_folder : path, optional
+        Where the scenes stood, whose files .pvd needs; beside each result unless it is given.
+
+    Returns
+    -------
+    list of dict
+        For each result what ``froude export --json`` tells: "written", "notes", and how much.
+
+    Raises
+    ------
+    InputError
+        For a file that is no result, or an output that cannot be.
+    """
+    if form not in (None, "csv", "matlab", "vtk"):
+        raise ValueError(f"form is csv, matlab or vtk, not {form!r}")
+    names = [signals] if isinstance(signals, str) else list(signals)
+    files = [results] if isinstance(results, (str, os.PathLike)) else list(results)
+    return json.loads(_froude.export(files, output, form or "", names, start, end, every, scene_folder))["exports"]
 
 
 def coefficients(file: FileName, *, density: Optional[float] = None, gravity: Optional[float] = None,

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <numbers>
 
+#include "hydro/base/base64.hpp"
 #include "report/arrays.hpp"
 #include "report/page.hpp"
 #include "report/spectra_of_run.hpp"
@@ -17,7 +18,7 @@ namespace html = froude::html;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-std::string encoded(std::string_view text) { return html::base64(std::as_bytes(std::span(text))); }
+std::string encoded(std::string_view text) { return hydro::base64(std::as_bytes(std::span(text))); }
 
 // RFC 4648, section 10.
 TEST(ReportArrays, AreBase64AsTheStandardHasIt) {

@@ -36,6 +36,12 @@ grep -q 'wrong.toml:[0-9]*:[0-9]*.*area = "-10 m^2" must be positive' "$work/wro
 cat "$work/vary.txt"
 [ "$(grep -c '^body.initial.roll = [14]0 deg: boat' "$work/vary.txt")" = 2 ]
 "$work/prefix/bin/froude" --version
+# The manual page and what shells complete by, where Debian's own look for them.
+share=$work/prefix/share
+grep -q '^\.TH FROUDE 1' "$share/man/man1/froude.1"
+bash -c 'source "$0"; COMP_WORDS=(froude ex); COMP_CWORD=1; _froude; printf "%s\n" "${COMPREPLY[@]}"' \
+  "$share/bash-completion/completions/froude" | grep -qx export
+head -n 1 "$share/zsh/vendor-completions/_froude" | grep -qx '#compdef froude'
 # The cases are a program of their own; installed beside froude it finds their folders in share/.
 if [ -x "$work/prefix/bin/froude-validate" ]; then "$work/prefix/bin/froude" validate --list | grep '^dispersion '; fi
 # Private files stay private.

@@ -107,7 +107,7 @@ MAY_USE_OF = {("validation", "tests"): {"support"}, ("tests", "validation"): {"h
 FLOORS = {
     "libhydro": ("base", "io", "signal", "waves", "radiation", "hydrostatics", "potential", "cylinders", "panels"),
     "libdynamics": ("algebra", "spatial", "time", "line", "state", "control", "joint", "force", "model", "integrate", "frequency"),
-    "apps": ("scene", "include", "compile", "answers", "sweep", "report", "froude"),
+    "apps": ("scene", "include", "compile", "answers", "sweep", "view", "report", "interchange", "froude"),
     "validation": ("harness", "*"),
     "tests": ("support", "laws", "*"),
     "libhydro/waves": (".", "spectra", "kinematics", "synthesis"),
@@ -116,7 +116,7 @@ FLOORS = {
 }
 # The part that an include belongs to, by its first folder.
 PART = {"hydro": "libhydro", "dynamics": "libdynamics", "fit": "libfit", "froude": "apps", "scene": "apps", "compile": "apps",
-        "answers": "apps", "sweep": "apps", "report": "apps",
+        "answers": "apps", "sweep": "apps", "view": "apps", "report": "apps", "interchange": "apps",
         "harness": "validation", "validation": "validation", "support": "tests", "laws": "tests", "tests": "tests"}
 
 

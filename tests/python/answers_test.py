@@ -42,6 +42,26 @@ def test_plan(examples):
     assert str(froude.plan(examples / "moored.toml")).strip() == program("plan", examples / "moored.toml").strip()
 
 
+def test_export(tmp_path):
+    (tmp_path / "spring.toml").write_text(SPRING + "[ask]\nrun = { duration = \"3 s\", every = \"0.1 s\" }\n")
+    run = froude.run(tmp_path / "spring.toml")
+    run.write(tmp_path / "run.h5")
+    told, = froude.export(tmp_path / "run.h5", tmp_path / "run.csv", signals="m.surge", start="1 s", every="0.5 s")
+    assert told["written"] == [str(tmp_path / "run.csv")]
+    said = table(tmp_path / "run.csv")
+    assert list(said) == ["time", "m.surge"]
+    np.testing.assert_allclose(said["time"], [1, 1.5, 2, 2.5, 3], **SAME)
+    np.testing.assert_array_equal(said["m.surge"], run["m.surge"][10::5])
+    froude.export([tmp_path / "run.h5"], tmp_path / "for_matlab", form="matlab")
+    assert (tmp_path / "for_matlab" / "run.mat").read_bytes()[:10] == b"MATLAB 7.3"
+    told, = froude.export(tmp_path / "run.h5", tmp_path / "run.pvd", every="1 s")
+    assert told["instants"] == 4 and (tmp_path / "run.pvd").exists()
+    with pytest.raises(froude.InputError, match="ends in none of"):
+        froude.export(tmp_path / "run.h5", tmp_path / "run.xlsx")
+    with pytest.raises(ValueError, match="form is csv, matlab or vtk"):
+        froude.export(tmp_path / "run.h5", tmp_path / "folder", form="pdf")
+
+
 def test_waves(examples, tmp_path):
     scene = examples / "waves/storm.toml"
     program("waves", "make", scene, "-o", tmp_path / "w.h5", "--csv", tmp_path / "w.csv")

@@ -120,6 +120,52 @@ TEST(SceneConnectors, AreOneGapFewerThanCopies) {
   }
 }
 
+/// Two rows of three modules.
+std::string grid(const std::string& between) {
+  const std::string rows = with(pontoons, "count = 5, step = \"(13, 0, 0) m\"",
+                                "count = 3, step = \"(13, 0, 0) m\", rows = 2, row_step = \"(1, 14, 0) m\"");
+  return with(with(rows, "[\"m1\", \"m5\"]", "[\"m1_1\", \"m2_3\"]"), "\"neighbours of m\"", between);
+}
+
+TEST(SceneBodies, MayStandInAGrid) {
+  const Scene scene = parse(grid("\"neighbours of m\""), "scene.toml");
+  ASSERT_EQ(scene.bodies.size(), 6u);
+  for (std::size_t i = 0; i < 6; ++i) {
+    const std::size_t row = i / 3, in_row = i % 3;
+    EXPECT_EQ(scene.bodies[i].name, fmt::format("m{}_{}", row + 1, in_row + 1));
+    EXPECT_EQ(scene.bodies[i].copy, static_cast<int>(i) + 1);  // bodies of a file follow row by row
+    const auto r = static_cast<double>(row), c = static_cast<double>(in_row);
+    EXPECT_EQ(scene.bodies[i].position, Eigen::Vector3d(13 * c + r, 14 * r, 0));
+  }
+  // Two in each gap within a row, none from the end of one row to the beginning of the next.
+  ASSERT_EQ(scene.connectors.size(), 8u);
+  for (const Connector& c : scene.connectors) EXPECT_EQ(*c.second, c.first + 1);
+  EXPECT_EQ(scene.connectors[3].first, 1);
+  EXPECT_EQ(scene.connectors[4].first, 3);
+}
+
+TEST(SceneBodies, RefuseAGridThatIsNone) {
+  EXPECT_THAT(refusal(with(grid("\"neighbours of m\""), ", row_step = \"(1, 14, 0) m\"", "")), HasSubstr("row_step"));
+  EXPECT_THAT(refusal(with(grid("\"neighbours of m\""), "rows = 2, ", "")), HasSubstr("rows"));
+  EXPECT_THAT(refusal(with(grid("\"neighbours of m\""), "rows = 2", "rows = 0")), HasSubstr("rows"));
+  EXPECT_THAT(refusal(with(grid("\"neighbours of m\""), "rows = 2", "rows = 90000")),
+              HasSubstr("makes more than 100000 bodies"));
+}
+
+TEST(SceneConnectors, PairRowsBodyByBody) {
+  const Scene scene = parse(grid("[\"m1_*\", \"m2_*\"]"), "scene.toml");
+  ASSERT_EQ(scene.connectors.size(), 6u);
+  for (std::size_t i = 0; i < 6; ++i) {
+    EXPECT_EQ(scene.connectors[i].first, static_cast<int>(i / 2));
+    EXPECT_EQ(*scene.connectors[i].second, static_cast<int>(i / 2) + 3);
+  }
+  EXPECT_THAT(refusal(grid("[\"m1_*\", \"m*\"]")),
+              AllOf(StartsWith("scene.toml:34:11: "), HasSubstr("\"m1_*\" names 3 and \"m*\" names 6")));
+  EXPECT_THAT(refusal(grid("[\"m1_*\", \"m1*\"]")), HasSubstr("pairs \"m1_1\" with itself"));
+  EXPECT_THAT(refusal(grid("[\"m1_*\", \"ground\"]")), HasSubstr("pairs a row with the ground"));
+  EXPECT_THAT(refusal(grid("[\"m1_*\", \"k*\"]")), HasSubstr("refers to \"k*\", but there is no such body"));
+}
+
 TEST(SceneConnectors, ReachTheGroundInGlobalAxes) {
   const Scene scene = parse(
       connected("[[connector]]\nbetween = [\"m1\", \"ground\"]\nends = [\"(-6, 0, 0) m\", \"(-50, 0, -14) m\"]\n" +

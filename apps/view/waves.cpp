@@ -1,4 +1,4 @@
-// The surface of the waves in an animation, held against the recorded elevation.
+// The surface of the waves of a run, held against the recorded elevation.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,9 +7,9 @@
 
 #include "compile/waves.hpp"
 #include "hydro/base/error.hpp"
-#include "report/view.hpp"
+#include "view/parts.hpp"
 
-namespace froude::html {
+namespace froude::view {
 namespace {
 
 constexpr std::size_t most_along_one_way = 1200, most_short_crested = 250;  // the page sums them at each frame
@@ -36,9 +36,6 @@ std::vector<hydro::waves::Component> largest_of(std::vector<hydro::waves::Compon
   return waves;
 }
 
-/// Waves grow by a half cosine over the ramp, as a run has them.
-double grown(double t, double ramp) { return t < ramp ? (1 - std::cos(std::numbers::pi * t / ramp)) / 2 : 1; }
-
 /// Rms of what the components differ by from the recorded elevation at the origin, over the rms of that.
 double departure(const std::vector<hydro::waves::Component>& waves, const RunResult& run,
                  const std::vector<double>& recorded, double ramp) {
@@ -55,18 +52,20 @@ double departure(const std::vector<hydro::waves::Component>& waves, const RunRes
 
 }  // namespace
 
-Json surface_of(const scene::Scene& scene, const RunResult& run, const Recorded& recorded,
-                std::vector<std::string>& notes) {
-  if (!scene.waves) return {};
+double grown(double t, double ramp) { return t < ramp ? (1 - std::cos(std::numbers::pi * t / ramp)) / 2 : 1; }
+
+std::optional<Surface> surface_of(const scene::Scene& scene, const RunResult& run, const Recorded& recorded,
+                                  std::vector<std::string>& notes) {
+  if (!scene.waves) return std::nullopt;
   std::vector<hydro::waves::Component> all;
   try {
     all = compile::free_waves(scene).components();
   } catch (const hydro::InputError& e) {
     notes.push_back(
         fmt::format("The surface is drawn flat: the waves of the scene are no sum of linear waves ({}).", e.rule()));
-    return {};
+    return std::nullopt;
   }
-  const auto shown = largest_of(all);
+  auto shown = largest_of(all);
   std::string told =
       shown.size() < all.size()
           ? fmt::format("The surface is the sum of the {} largest of {} waves, with {:.3g} % of their variance",
@@ -79,20 +78,14 @@ Json surface_of(const scene::Scene& scene, const RunResult& run, const Recorded&
           fmt::format("The surface is drawn flat: a sum of linear waves would be {:.0f} % off the recorded "
                       "elevation.",
                       100 * off));
-      return {};
+      return std::nullopt;
     }
     told += fmt::format("; at the origin it differs from the recorded elevation by {:.2g} % (rms)", 100 * off);
   } else {
     told += "; the result keeps no wave.elevation to hold it against";
   }
   notes.push_back(told + ". Waves that the bodies make or scatter are not drawn.");
-  Json out{{"ramp", scene.waves->ramp},  {"omega", Json::array()}, {"k", Json::array()},
-           {"amplitude", Json::array()}, {"phase", Json::array()}, {"heading", Json::array()}};
-  for (const auto& w : shown) {
-    out["omega"].push_back(w.omega), out["k"].push_back(w.k), out["amplitude"].push_back(w.amplitude);
-    out["phase"].push_back(w.phase), out["heading"].push_back(w.heading);
-  }
-  return out;
+  return Surface{scene.waves->ramp, std::move(shown)};
 }
 
-}  // namespace froude::html
+}  // namespace froude::view
