@@ -87,7 +87,9 @@ StabilityMap::Motion PeriodicAnswers::told(PeriodicScene& system, const Periodic
 
 std::vector<double> PeriodicAnswers::deviations(PeriodicScene& system, const PeriodicMotion& motion) const {
   std::vector<double> times;
-  for (int i = 0; i < 32; ++i) times.push_back(i / 32.0 * 2 * std::numbers::pi / motion.omega);
+  // Squares of signals with harmonics up to twice the motion's do not alias.
+  const auto count = static_cast<int>(4 * (motion.harmonics() + 1));
+  for (int i = 0; i < count; ++i) times.push_back(2 * std::numbers::pi / motion.omega * i / count);
   const Eigen::MatrixXd values = system.values(signals_of_map(*scene_.stability, system.model()), motion, times);
   std::vector<double> out;
   for (const auto& signal : values.colwise()) out.push_back(standard_deviation(signal));

@@ -72,6 +72,15 @@ void tell_times(const TowPlanArguments& a, double diameter, double speed, double
             steady_s, std::max(3.0, std::ceil(last.seconds / steady_s)))});
 }
 
+/// Which of the two loads a fit can tell, by C_D KC/(π² C). (F109)
+void tell_leading_load(double cd, double kc, double inertia, const char* symbol, Report& out) {
+  const double ratio = ::fit::drag_over_inertia(cd, kc, inertia);
+  const char* leads = kc < 3 ? "inertia alone is told well below KC 3"
+                             : (kc > 40 ? "drag alone is told well above KC 40" : "both count between KC 3 and 40");
+  out.say("drag is {:.3g} times inertia with C_D {:g} and {} {:g}: {}", fact("drag_over_inertia", ratio),
+          fact("expected_cd", cd), symbol, fact("expected_inertia", inertia), leads);
+}
+
 /// What the water does at the axis of a cylinder across the waves, by linear theory.
 void tell_cylinder(const WavePlanArguments& a, double k, double omega, Report& out) {
   if (a.diameter.has_value() != a.level.has_value())
@@ -86,6 +95,18 @@ void tell_cylinder(const WavePlanArguments& a, double k, double omega, Report& o
   const double speed = a.height / 2 * omega * fall;
   out.say("at the axis the water goes at {:.4g} m/s at most along the waves: KC {:.4g}", fact("speed", speed),
           fact("kc", speed * a.period / *a.diameter));
+  tell_leading_load(a.cd, speed * a.period / *a.diameter, a.cm, "C_M", out);
+}
+
+/// Whether the waves pass the cylinder as if it were not there, as Morison's equation has it.
+void tell_slenderness(const WavePlanArguments& a, double wavelength, std::vector<std::string>& warnings, Report& out) {
+  if (!a.diameter) return;
+  constexpr double slender = 0.05;  // Huijgen 2024, equation 6.11
+  const double ratio = *a.diameter / wavelength;
+  out.say("the cylinder is {:.3g} of a wavelength thick", fact("diameter_over_wavelength", ratio));
+  if (ratio >= slender)
+    warnings.push_back(fmt::format(
+        "a cylinder of {:.3g} wavelengths is not slender: Morison's equation is for less than {:g}", ratio, slender));
 }
 
 }  // namespace
@@ -97,6 +118,14 @@ void plan_oscillation(const OscillationPlanArguments& a, const Console& console)
           fact("diameter", *n.diameter), fact("amplitude", *n.amplitude), fact("period_s", *n.period),
           fact("speed", *n.speed));
   out.say("KC {:.4g}, Re {:.4g}, beta {:.4g}", fact("kc", *n.kc), fact("re", *n.re), fact("beta", *n.beta));
+  tell_leading_load(a.record.cd, *n.kc, a.record.inertia, "C_A", out);
+  if (a.loads) {
+    ::fit::Cylinder cylinder = a.record.cylinder;
+    cylinder.diameter = *n.diameter;
+    const auto loads = ::fit::load_sizes(cylinder, *n.speed, *n.period, a.record.cd, a.record.inertia);
+    out.say("largest force {:.4g} N, of drag {:.4g} N and inertia {:.4g} N", fact("largest_force", loads.largest),
+            fact("drag_force", loads.drag), fact("inertia_force", loads.inertia));
+  }
   if (a.width) tell_lengths(a, n, out);
   tell(out, console);
 }
@@ -117,6 +146,16 @@ void plan_tow(const TowPlanArguments& a, const Console& console) {
   out.say("at one speed for {:.4g} s, after {:.3g} s of acceleration: {:.4g} m, {:.4g} diameters",
           fact("steady_s", steady), fact("ramp_s", speed / a.acceleration), fact("steady_m", steady * speed),
           fact("diameters", steady * speed / diameter));
+  if (a.loads) {
+    const double force =
+        a.record.cylinder.density / 2 * a.record.cd * diameter * a.record.cylinder.length * speed * speed;
+    out.say("force {:.4g} N with C_D {:g}", fact("force", force), fact("expected_cd", a.record.cd));
+  }
+  if (a.strouhal) {
+    const double frequency = ::fit::shedding_frequency_hz(*a.strouhal, speed, diameter);
+    out.say("vortices leave it {:.4g} times a second, Strouhal number {:g}", fact("shedding_hz", frequency),
+            fact("strouhal", *a.strouhal));
+  }
   if (a.width) tell_times(a, diameter, speed, steady, out);
   tell(out, console);
 }
@@ -137,7 +176,9 @@ void plan_waves(const WavePlanArguments& a, const Console& console) {
   if (!depth.is_infinite()) out.keep("kh", k * depth.metres());
   out.say("highest wave of that length {:.4g} m, of which this is {:.3g}", fact("highest", limits.highest),
           fact("share_of_highest", a.height / limits.highest));
+  std::vector<std::string> warnings = limits.warnings;
   tell_cylinder(a, k, omega, out);
+  tell_slenderness(a, limits.wavelength, warnings, out);
   out.say("energy goes at {:.4g} m/s: the waves are at gauge and body after {:.4g} s, and steady from {:.4g} s on",
           fact("group_velocity", times.group_velocity), fact("front_s", times.front), fact("steady_from_s", from));
   if (std::isfinite(times.back_from_end)) {
@@ -148,7 +189,7 @@ void plan_waves(const WavePlanArguments& a, const Console& console) {
                                : std::string("no period is steady and without them"));
     out.keep("steady_periods", std::max(0.0, std::floor(periods)));
   }
-  out.sentences("warnings", "caution: {}", limits.warnings);
+  out.sentences("warnings", "caution: {}", warnings);
   tell(out, console);
 }
 

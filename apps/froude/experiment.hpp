@@ -14,13 +14,16 @@ struct OscillationPlanArguments {
   ::fit::OscillationNumbers known = {};
   double viscosity = 0;
   std::optional<double> width = {};  ///< half of the interval that is wanted; none: only the numbers are told
+  bool loads = false;                ///< the largest force is told: length and density of the record are known
   ::fit::Wanted wanted = ::fit::Wanted::cd;
   ::fit::PlannedOscillation record = {};  ///< but amplitude, period and diameter, which follow
 };
 struct TowPlanArguments {
   std::optional<double> diameter = {}, speed = {}, re = {};  ///< two of them
   double viscosity = 0, length = 0, acceleration = 1;        ///< of the tank
+  std::optional<double> strouhal = {};
   std::optional<double> width = {};  ///< half of the interval that is wanted; none: only numbers and time are told
+  bool loads = false;                ///< the force is told: length and density of the record are known
   ::fit::PlannedTow record = {};     ///< but speed, acceleration and diameter, which follow
 };
 struct WavePlanArguments {
@@ -28,6 +31,7 @@ struct WavePlanArguments {
   ::fit::WaveTank tank = {};
   double ramp = 0, settle_periods = 5;
   std::optional<double> diameter = {}, level = {};  ///< of a cylinder across the waves; m below still water
+  double cd = 1.2, cm = 2;                          ///< that are expected of it
 };
 void plan_oscillation(const OscillationPlanArguments& arguments, const Console& console);
 void plan_tow(const TowPlanArguments& arguments, const Console& console);

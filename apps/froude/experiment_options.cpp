@@ -37,28 +37,40 @@ void add_record(CLI::App& command, const std::shared_ptr<RecordTexts>& texts, st
   command.add_option("--noise", texts->noise, "standard deviation of the force's noise");
   command.add_option("--memory", texts->memory, "of that noise: it forgets by 1/e; white if left out");
   command.add_option("--rate", texts->rate, "of sampling")->capture_default_str();
-  command.add_option("--length", texts->length, "of the cylinder in the water");
+  command.add_option("--length", texts->length,
+                     "of the cylinder in the water: with the density, tells the largest force");
   command.add_option("--density", texts->density, "of the water");
 }
 
-/// Into a plan of libfit. \throws hydro::InputError for what goes without the other
-template <class Plan>
-void read_record(const RecordTexts& texts, const std::optional<double>& width, double viscosity, Plan& plan) {
+/// \throws hydro::InputError for what goes without the other
+void check_record(const RecordTexts& texts, bool width) {
+  const auto refuse = [](const std::string& what, const char* remedy) {
+    throw hydro::InputError(what, {.file = "command line"}, remedy);
+  };
   for (const auto& [option, text] :
        {std::pair{"--noise", &texts.noise}, {"--length", &texts.length}, {"--density", &texts.density}})
-    if (text->empty() == width.has_value())
-      throw hydro::InputError(
-          width ? fmt::format("--width needs {}", option) : fmt::format("{} does not act without --width", option),
-          {.file = "command line"}, width ? "add it" : "leave it out, or ask for a --width");
-  if (!width) return;
-  plan.noise = positive_of("--noise", texts.noise, dim::force);
-  plan.memory = parsed("--memory", texts.memory, dim::time).value_or(0);
-  plan.step = 2 * std::numbers::pi / positive_of("--rate", texts.rate, dim::angular_velocity);
+    if (width && text->empty()) refuse(fmt::format("--width needs {}", option), "add it");
+  if (!width && !texts.noise.empty())
+    refuse("--noise does not act without --width", "leave it out, or ask for a --width");
+  if (texts.length.empty() != texts.density.empty())
+    refuse("--length and --density belong together", "give both, or none");
+}
+
+/// Into a plan of libfit, and whether it knows the cylinder's length and water. \throws as check_record()
+template <class Plan>
+bool read_record(const RecordTexts& texts, const std::optional<double>& width, double viscosity, Plan& plan) {
+  check_record(texts, width.has_value());
+  if (texts.length.empty()) return false;
   plan.cylinder = {.diameter = 0,
                    .length = positive_of("--length", texts.length, dim::length),
                    .density = positive_of("--density", texts.density, dim::density),
                    .viscosity = viscosity,
                    .experiment = ::fit::Experiment::body_moves};
+  if (!width) return true;
+  plan.noise = positive_of("--noise", texts.noise, dim::force);
+  plan.memory = parsed("--memory", texts.memory, dim::time).value_or(0);
+  plan.step = 2 * std::numbers::pi / positive_of("--rate", texts.rate, dim::angular_velocity);
+  return true;
 }
 
 struct OscillationTexts {
@@ -71,8 +83,8 @@ void read(const OscillationTexts& texts, const RecordTexts& record, OscillationP
   a.known.amplitude = positive_or_none("--amplitude", texts.amplitude, dim::length);
   a.known.period = positive_or_none("--period", texts.period, dim::time);
   a.known.speed = positive_or_none("--speed", texts.speed, dim::velocity);
-  read_record(record, a.width, a.viscosity, a.record);
-  if (!a.width) return;
+  a.loads = read_record(record, a.width, a.viscosity, a.record);
+  if (!a.loads) return;
   a.record.cylinder.mass_beyond_load_cells = *parsed("--mass", texts.mass, dim::mass);
   a.wanted = texts.of == "cd" ? ::fit::Wanted::cd : ::fit::Wanted::inertia;
 }
@@ -132,6 +144,8 @@ void add_tow_plan(CLI::App& experiment, Request& request) {
   command->add_option("--viscosity", texts->viscosity, "kinematic, of the water")->required();
   command->add_option("--tank", texts->tank, "length that the carriage may go")->required();
   command->add_option("--acceleration", texts->acceleration, "of the carriage at both ends")->capture_default_str();
+  command->add_option("--strouhal", arguments->strouhal,
+                      "Strouhal number, of a smooth cylinder about 0.2: tells how often vortices leave it");
   add_record(*command, record, arguments->width);
   command->add_option("--cd", arguments->record.cd, "that is expected")->capture_default_str();
   command->add_option("--confidence", arguments->record.confidence, "level of the interval")->capture_default_str();
@@ -142,7 +156,7 @@ void add_tow_plan(CLI::App& experiment, Request& request) {
       arguments->viscosity = positive_of("--viscosity", texts->viscosity, dim::kinematic_viscosity);
       arguments->length = positive_of("--tank", texts->tank, dim::length);
       arguments->acceleration = positive_of("--acceleration", texts->acceleration, dim::acceleration);
-      read_record(*record, arguments->width, arguments->viscosity, arguments->record);
+      arguments->loads = read_record(*record, arguments->width, arguments->viscosity, arguments->record);
       plan_tow(*arguments, console);
       return done;
     };
@@ -172,6 +186,8 @@ void add_wave_plan(CLI::App& experiment, Request& request) {
       ->capture_default_str();
   command->add_option("--diameter", texts->diameter, "of a cylinder in the waves: tells its KC");
   command->add_option("--level", texts->level, "of its axis below still water");
+  command->add_option("--cd", arguments->cd, "that is expected of it")->capture_default_str();
+  command->add_option("--cm", arguments->cm, "that is expected of it")->capture_default_str();
   command->callback([=, &request] {
     request.call = [=](const Console& console) {
       auto& a = *arguments;

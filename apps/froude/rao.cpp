@@ -87,6 +87,27 @@ plot::Figure figure(const scene::Scene& scene, const Responses& r) {
           .panels = r.heading.size() == 1 ? panels_by_unit(r) : panels_by_signal(r)};
 }
 
+/// What runs have at the same frequency, as marks upon the curves of `r`, which may be over the slope of the wave where
+/// cells are per metre: both are over the same wave.
+void mark_runs(const std::vector<CheckedCell>& cells, const Responses& r, plot::Figure& figure) {
+  for (std::size_t i = 0; i < r.signals.size(); ++i) {
+    const ComplexSignal& s = r.signals[i];
+    const auto panel = r.heading.size() > 1 ? figure.panels.begin() + static_cast<std::ptrdiff_t>(i)
+                                            : std::find_if(figure.panels.begin(), figure.panels.end(),
+                                                           [&](const plot::Panel& p) { return p.y.unit == s.units; });
+    plot::Series marks{.name = s.name + ", runs", .x = {}, .y = {}, .line = false, .marks = true};
+    for (const CheckedCell& c : cells) {
+      const auto at = std::find(r.omega.begin(), r.omega.end(), c.omega);
+      if (c.signal != s.name || at == r.omega.end()) continue;
+      const double linear = std::abs(of_heading(s, r, 0)[static_cast<std::size_t>(at - r.omega.begin())]);
+      if (std::abs(c.linear) == 0) continue;
+      marks.x.push_back(2 * std::numbers::pi / c.omega);
+      marks.y.push_back(std::abs(c.run) * linear / std::abs(c.linear));
+    }
+    if (!marks.x.empty()) panel->series.push_back(std::move(marks));
+  }
+}
+
 /// Its peaks for people, all of it for programs: one list a heading where there are several. A tree of all numbers of a
 /// thousand bodies takes longer than they do, and is made where it is asked for.
 Report report_of(const ComplexSignal& s, const Responses& r, bool for_programs) {
@@ -165,13 +186,17 @@ void rao(const RaoArguments& arguments, const Console& console) {
   shares.end("answering");
   r.write(file);
   if (arguments.csv) interchange::write_csv(*arguments.csv, interchange::content_of(r));
-  if (arguments.picture) plot::write_picture(*arguments.picture, figure(scene, r));
+  plot::Figure drawn = figure(scene, r);
+  if (arguments.picture) plot::write_picture(*arguments.picture, drawn);
   shares.end("writing");
   Report report = report_of(scene, r, shares, file, console.json);
   if (!arguments.check.empty()) {
     Progress progress(console.err, "runs", console.show_progress);
-    report.part("check", report_of(check_in_time(scene, per_metre, arguments.check_steepness,
-                                                 [&](double done) { progress.update(done); })));
+    const auto cells =
+        check_in_time(scene, per_metre, arguments.check_steepness, [&](double done) { progress.update(done); });
+    report.part("check", report_of(cells));
+    mark_runs(cells, r, drawn);
+    if (arguments.picture) plot::write_picture(*arguments.picture, drawn);
   }
   tell(report, console);
 }

@@ -162,6 +162,13 @@ Eigen::Vector3d read_direction(const Site& at) {
 
 void read_range(const Site& at, Value& value) {
   if (!at.node.is(Node::Type::text)) refuse_type(at);
+  const bool alone = at.node.text.find("..") == std::string::npos && at.node.text.find(',') == std::string::npos;
+  if (alone && at.key.holds == Holds::range) {  // "5 s", as an axis of a study writes it; of several there are lists
+    Value one;
+    read_quantity(at, one);
+    value.range = {one.number};
+    return;
+  }
   try {
     value.range = hydro::parse_range(at.node.text, at.key.dimension);
   } catch (const InputError& why) {

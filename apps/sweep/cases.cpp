@@ -403,7 +403,7 @@ void Cases::check_skips() const {
 void Cases::check_pictures() const {
   for (const Picture& picture : study_.pictures)
     for (const auto* axis : {&picture.x, picture.y ? &*picture.y : nullptr}) {
-      if (axis == nullptr) continue;
+      if (axis == nullptr || is_over_time(study_, picture)) continue;
       const std::size_t at = column(axis->value);
       if (columns_[at].is_text)
         throw InputError(

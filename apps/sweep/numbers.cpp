@@ -67,7 +67,8 @@ const std::vector<Statistic<Amplitudes>>& of_responses() {
   static const std::vector<Statistic<Amplitudes>> all{
       {"peak", nullptr, [](const Amplitudes& a) { return std::abs(a.signal.values[a.largest()]); }},
       {"peak_period", "s",
-       [](const Amplitudes& a) { return 2 * std::numbers::pi / a.of.omega[a.largest() % a.of.omega.size()]; }}};
+       [](const Amplitudes& a) { return 2 * std::numbers::pi / a.of.omega[a.largest() % a.of.omega.size()]; }},
+      {"amplitude", nullptr, [](const Amplitudes& a) { return std::abs(a.signal.values.front()); }}};
   return all;
 }
 
@@ -183,6 +184,11 @@ void tell_run(const Output& output, const Run& run, std::vector<Number>& out) {
 }
 
 void tell_rao(const Output& output, const Responses& rao, std::vector<Number>& out) {
+  const auto& asked = output.statistics;
+  if (std::find(asked.begin(), asked.end(), "amplitude") != asked.end() && rao.omega.size() * rao.heading.size() > 1)
+    throw InputError(fmt::format("[[output]] statistic \"amplitude\" is of one wave, and the scene asks for {}",
+                                 rao.omega.size() * rao.heading.size()),
+                     output.place, "write period = \"5 s\" and one heading in [ask.rao], or ask for the \"peak\"");
   for (const auto& pattern : output.of)
     for (const std::size_t i : fitting(rao.signals, pattern))
       tell(output, of_responses(), {rao, rao.signals[i]}, rao.signals[i].name, rao.signals[i].units, out);

@@ -114,7 +114,9 @@ Binding<Output> run_binding() {
 Binding<Output> rao_binding() {
   return Binding<Output>("", "of amplitudes over frequencies and headings, per metre of wave amplitude")
       .key(texts("of", "signals, of those that the scene gives; * stands for any characters"), put_texts(&Output::of))
-      .key(texts("statistic", "the largest amplitude and its period, of the frequencies that are asked")
+      .key(texts("statistic",
+                 "the largest amplitude and its period, of the frequencies that are asked; or the amplitude at the one "
+                 "`period` that the scene asks for, in waves of one heading")
                .one_of(statistics_of(Output::Kind::rao)),
            &Output::statistics)
       .sets(&Output::kind, Output::Kind::rao);
@@ -159,15 +161,19 @@ Binding<Overlay> overlay_binding() {
 }
 
 Binding<Picture> picture_binding() {
-  return Binding<Picture>(
-             "[[picture]]",
-             "curves over one axis, or a map over two; the numbers stand in a .csv beside it. Where several "
-             "cases share a point it tells their mean")
+  return Binding<Picture>("[[picture]]",
+                          "curves over one axis or over the time of runs, or a map over two axes; the numbers stand in "
+                          "a .csv beside "
+                          "it, series in those of `series`. Where several cases share a point it tells their mean")
       .key(text("file", "its name in the folder of the sweep, .svg, .png or .pdf"), &Picture::file)
-      .key(text("of", "column of an output: \"buoy.heave.maximum\""), &Picture::of)
-      .key(text("x", "axis"), &Picture::x)
+      .key(texts("of",
+                 "columns of outputs, \"buoy.heave.maximum\", or over time signals, \"buoy.heave\"; of several each "
+                 "has a panel"),
+           put_texts(&Picture::of))
+      .key(text("x", "axis; or \"time\", where series are kept: a curve for each case"), &Picture::x)
       .optional(text("y", "axis: a map with contours"), &Picture::y)
       .optional(text("by", "axis: a curve for each of its values"), &Picture::by)
+      .optional(text("panel", "axis: panels of their own for each of its values"), &Picture::panel)
       .tables("upon", overlay_binding(), &Picture::overlays)
       .optional()
       .at_most_one_of({"y", "by"});
@@ -237,6 +243,13 @@ void check_axes(Study& study) {
   }
 }
 
+void check_over_time(const Study& study, const Picture& picture) {
+  if (!study.series)
+    throw InputError("[[picture]] x = \"time\" draws series of runs, which this study does not keep", picture.x.place,
+                     "add series = true to the study");
+  if (picture.y) throw InputError("[[picture]] y has no meaning over time", picture.y->place, "leave it out");
+}
+
 void check_pictures(const Study& study) {
   for (const Picture& picture : study.pictures) {
     const std::filesystem::path name = picture.file.value;
@@ -246,9 +259,15 @@ void check_pictures(const Study& study) {
                                    picture.file.value),
                        picture.file.place, "write a name alone that ends in .svg, .png or .pdf, other than table.svg");
     scene::placed(picture.file.place, [&] { plot::require_picture(name); });
-    for (const auto* axis : {&picture.y, &picture.by})
+    for (const auto* axis : {&picture.y, &picture.by, &picture.panel})
       if (*axis) require_axis(study, **axis);
-    require_axis(study, picture.x);
+    if (is_over_time(study, picture))
+      check_over_time(study, picture);
+    else
+      require_axis(study, picture.x);
+    if (!picture.overlays.empty() && (picture.of.size() > 1 || picture.panel))
+      throw InputError("[[picture]] upon draws a table upon one panel, and this picture has several",
+                       picture.overlays.front().file.place, "draw a picture of each panel by itself");
     check_overlays(picture);
   }
 }
@@ -261,6 +280,10 @@ void check_outputs(const Study& study) {
 }
 
 }  // namespace
+
+bool is_over_time(const Study& study, const Picture& picture) {
+  return picture.x.value == "time" && axis_named(study, "time") == nullptr;
+}
 
 const std::string& name_of(Output::Kind kind) {
   using enum Output::Kind;

@@ -58,11 +58,13 @@ struct Overlay {
   bool line = false;                    ///< else marks
 };
 
-/// A curve or map of an output, and its table beside it.
+/// Curves or a map of outputs, and their table beside it; or series of the runs over time.
 struct Picture {
-  Located<std::string> file;  ///< a name in the folder of the sweep
-  Located<std::string> of, x;
+  Located<std::string> file;             ///< a name in the folder of the sweep
+  std::vector<Located<std::string>> of;  ///< a panel each
+  Located<std::string> x;
   std::optional<Located<std::string>> y, by;  ///< of a map its second axis; of curves what tells them apart
+  std::optional<Located<std::string>> panel;  ///< an axis, each value of which has panels of its own
   std::vector<Overlay> overlays;
 };
 
@@ -78,6 +80,9 @@ struct Study {
   bool series = false;                                     ///< of runs, kept in files
   std::optional<double> time_limit_s, memory_limit_bytes;  ///< of a case
 };
+
+/// Whether a picture draws series over the time of runs: it does unless an axis is called "time".
+bool is_over_time(const Study& study, const Picture& picture);
 
 /// "run", "rao", …
 const std::string& name_of(Output::Kind kind);

@@ -146,6 +146,46 @@ std::vector<PlannedLength> lengths_for(const PlannedOscillation& plan, Wanted wa
       [](const PlannedLength& l) { return l.cycles; });
 }
 
+namespace {
+
+void require_positive(const char* what, double value) {
+  hydro::require(std::isfinite(value) && value > 0, "{} must be positive, got {}", what, value);
+}
+
+}  // namespace
+
+double drag_over_inertia(double cd, double kc, double inertia) {
+  require_positive("the drag coefficient", cd);
+  require_positive("KC", kc);
+  require_positive("the inertia coefficient", inertia);
+  return cd * kc / (std::numbers::pi * std::numbers::pi * inertia);
+}
+
+// (F109)
+LoadSizes load_sizes(const Cylinder& c, double speed, double period, double cd, double inertia) {
+  require_positive("the diameter", c.diameter);
+  require_positive("the length", c.length);
+  require_positive("the density", c.density);
+  require_positive("the period", period);
+  require_positive("the speed", speed);
+  require_positive("the drag coefficient", cd);
+  require_positive("the inertia coefficient", inertia);
+  const double acceleration = whole_turn / period * speed;
+  LoadSizes out{.drag = c.density / 2 * cd * c.diameter * c.length * speed * speed,
+                .inertia = (c.density * inertia * c.volume() + c.mass_beyond_load_cells) * acceleration,
+                .largest = 0};
+  // D sin² + I |cos| is largest where cos = I/2D, or at the turn.
+  out.largest = out.inertia < 2 * out.drag ? out.drag + out.inertia * out.inertia / (4 * out.drag) : out.inertia;
+  return out;
+}
+
+double shedding_frequency_hz(double strouhal, double speed, double diameter) {
+  require_positive("the Strouhal number", strouhal);
+  require_positive("the speed", speed);
+  require_positive("the diameter", diameter);
+  return strouhal * speed / diameter;
+}
+
 double steady_tow_s(double length, double speed, double acceleration) {
   hydro::require(length > 0 && speed > 0 && acceleration > 0,
                  "length, speed and acceleration must be positive, got {} m, {} m/s, {} m/s²", length, speed,

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <sstream>
 
 #include "hydro/base/error.hpp"
@@ -69,6 +70,41 @@ TEST(Experiment, OfATowTellsHowLongItMustBe) {
   EXPECT_FALSE(j.contains("warnings"));
   a.length = 8;
   EXPECT_THAT(told(froude::plan_tow, a)["warnings"].dump(), HasSubstr("tows together"));
+}
+
+TEST(Experiment, TellsWhichLoadLeadsAndTheLargestForce) {
+  froude::OscillationPlanArguments a{.known = {.diameter = 0.12, .period = 4, .kc = 20}, .viscosity = 1.05e-6};
+  auto j = told(froude::plan_oscillation, a);
+  EXPECT_NEAR(j["drag_over_inertia"].get<double>(), 1.2 * 20 / (std::numbers::pi * std::numbers::pi), 1e-12);
+  EXPECT_FALSE(j.contains("largest_force"));
+  a.loads = true;
+  a.record.cylinder = {
+      .diameter = 0, .length = 0.5, .density = 997, .viscosity = {}, .experiment = fit::Experiment::body_moves};
+  j = told(froude::plan_oscillation, a);
+  const double drag = 0.5 * 997 * 1.2 * 0.12 * 0.5 * 0.36, inertia = drag / j["drag_over_inertia"].get<double>();
+  EXPECT_NEAR(j["largest_force"].get<double>(), drag + inertia * inertia / (4 * drag), 1e-9);  // sums of (F109)
+}
+
+TEST(Experiment, OfATowTellsForceAndVortices) {
+  froude::TowPlanArguments a{
+      .diameter = 0.12, .speed = 0.85, .viscosity = 1.05e-6, .length = 60, .strouhal = 0.25, .loads = true};
+  a.record.cylinder = {
+      .diameter = 0, .length = 0.5, .density = 997, .viscosity = {}, .experiment = fit::Experiment::body_moves};
+  const auto j = told(froude::plan_tow, a);
+  EXPECT_NEAR(j["shedding_hz"].get<double>(), 0.25 * 0.85 / 0.12, 1e-12);
+  EXPECT_NEAR(j["force"].get<double>(), 0.5 * 997 * a.record.cd * 0.12 * 0.5 * 0.85 * 0.85, 1e-9);
+}
+
+TEST(Experiment, OfWavesTellsWhetherACylinderIsSlender) {
+  froude::WavePlanArguments a{.period = 1.6, .height = 0.06};
+  a.tank = {.water = {.depth = hydro::WaterDepth::infinite()}, .gauge = 20, .body = 23, .end = 60};
+  a.diameter = 0.12, a.level = 0.2;
+  auto j = told(froude::plan_waves, a);
+  const double length = j["wavelength"];
+  EXPECT_NEAR(j["diameter_over_wavelength"].get<double>(), 0.12 / length, 1e-12);
+  EXPECT_THAT(j.value("warnings", nlohmann::json::array()).dump(), testing::Not(HasSubstr("slender")));
+  a.diameter = 0.051 * length;
+  EXPECT_THAT(told(froude::plan_waves, a)["warnings"].dump(), HasSubstr("not slender"));
 }
 
 TEST(Experiment, OfWavesTellsWhenTheyAreSteady) {

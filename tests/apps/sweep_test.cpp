@@ -186,6 +186,16 @@ TEST(Studies, RefuseWhatNoSceneCanHave) {
   refused(axis("body.block.mass", "range = \"1 kg .. 1000000 kg, every 1 g\""), "whole number of steps");
 }
 
+TEST(Studies, RefusePicturesThatCannotBe) {
+  const auto refused = [](const std::string& picture, const std::string& why) {
+    EXPECT_THAT([&] { study_of(masses + starts, outputs + ("[[picture]]\nfile = \"p.svg\"\n" + picture)); },
+                ThrowsMessage<hydro::InputError>(HasSubstr(why)));
+  };
+  refused("of = \"block.surge\"\nx = \"time\"\n", "which this study does not keep");
+  refused("of = \"block.surge.deviation\"\nx = \"mass\"\npanel = \"stat\"\n", "did you mean \"start\"?");
+  refused("of = \"block.surge.deviation\"\nx = \"mas\"\n", "did you mean \"mass\"?");
+}
+
 TEST(Numbers, AreThoseOfTheClosedForm) {
   const Study study = study_of(masses + starts);
   const Cases cases(study, oscillator, {});

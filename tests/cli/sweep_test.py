@@ -318,6 +318,33 @@ y = "start"
         self.write("study.toml", STUDY + picture.replace('y = "motion"', 'y = "mass"'))
         self.assertIn("points.csv:1", self.sweep("study.toml", "-o", "out", status=2).stderr)  # a mass is no length
 
+    def test_pictures_have_panels_and_draw_runs_over_time(self):
+        two = STUDY.replace('range = "100 kg .. 400 kg, 40 values"', 'values = ["100 kg", "400 kg"]').replace(
+            "schema = 1", "schema = 1\nseries = true") + (
+            '[[axis]]\nname = "start"\nkey = "body.block.initial.surge"\nvalues = ["20 cm", "40 cm"]\n')
+        numbers = ('[[picture]]\nfile = "n.svg"\nof = ["block.surge.range", "block.surge.maximum"]\nx = "start"\n'
+                   'panel = "mass"\n')
+        over_time = '[[picture]]\nfile = "t.svg"\nof = "block.surge"\nx = "time"\nby = "mass"\n'
+        self.write("study.toml", two + numbers + over_time)
+        self.sweep("study.toml", "-o", "out")
+        drawn = (self.folder / "out/n.svg").read_text()
+        for label in ("block.surge.range at 100 kg", "block.surge.range at 400 kg", "block.surge.maximum at 400 kg"):
+            self.assertIn(label, drawn)
+        with open(self.folder / "out/n.csv", newline="", encoding="utf-8") as file:
+            header, *lines = csv.reader(file)
+        self.assertEqual(len(header), 1 + 4)
+        # The largest value of a swing that is let go is where it is let go, whatever its mass.
+        for name, values in zip(header[1:], zip(*(line[1:] for line in lines))):
+            if "maximum" in name:
+                self.assertTrue(all(abs(float(v) - s) < 1e-3 for v, s in zip(values, (0.2, 0.4))), (name, values))
+        drawn = (self.folder / "out/t.svg").read_text()
+        self.assertTrue(">mass 100 kg<" in drawn and ">mass 400 kg, case 4<" in drawn, "a curve for each case")
+        for changed, said in ((over_time.replace('"block.surge"', '"block.surg"'), 'did you mean "block.surge"?'),
+                              (over_time + 'y = "mass"\n', "hold only one of y, by"),
+                              (numbers + 'upon = [{ file = "table.csv", x = "a", y = "b" }]\n', "this picture has several")):
+            self.write("study.toml", two + changed)
+            self.assertIn(said, self.sweep("study.toml", "-o", "out", status=2).stderr)
+
     def test_wrong_commands_have_one_error_with_a_remedy(self):
         for arguments, said in ((["study.toml", "--part", "5/4"], "no part"), (["study.toml", "--threads", 0], "threads"),
                                 (["study.toml", "--case", 41], "there is no case 41"), ([], "which study"),
@@ -338,6 +365,28 @@ y = "start"
         self.assertEqual(said["written"], written)
         for name in (*written, "out/power.csv", "out/stroke.csv"):
             self.assertTrue((self.folder / name).exists(), name)
+
+    def test_the_studies_of_modules_have_their_pictures(self):
+        shutil.copytree(SOURCE / "examples", self.folder / "examples")
+        for study, pictures in (("choice", ("surge", "heave_pitch", "force")), ("control", ("control",)),
+                                ("raos", ("surge", "heave", "pitch"))):
+            said = json.loads(self.sweep(f"examples/sweep/{study}.toml", "-o", study, "--json").stdout)
+            self.assertEqual((said["failed"], said["skipped"]), (0, 0), study)
+            for name in pictures:
+                self.assertTrue((self.folder / study / f"{name}.svg").exists(), name)
+        # One period of the study is that of a response over periods: two codes for what is to be one number.
+        self.write("one.toml", self.sweep("examples/sweep/choice.toml", "--case", 12).stdout)
+        shutil.copy(self.folder / "one.toml", self.folder / "examples/sweep/one.toml")
+        row = self.rows("choice")[11]
+        done = subprocess.run([str(FROUDE), "rao", "examples/sweep/one.toml", "-o", "one.h5", "--json"],
+                              cwd=self.folder, capture_output=True, text=True, timeout=120)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        amplitude = json.loads(done.stdout)["signals"]["gap.force_x"]["amplitude"]
+        self.assertEqual(len(amplitude), 1)
+        self.assertAlmostEqual(float(row["gap.force_x.amplitude [N/m]"]) / amplitude[0], 1, delta=1e-12)
+        # The controller acts after a window and two looks: without it the run is the same until then.
+        deviation = {r["control [s]"]: float(r["m2.surge.deviation [m]"]) for r in self.rows("control")}
+        self.assertLess(deviation["25"], deviation["180"])
 
     def test_the_study_of_rows_has_its_507_cases(self):
         # One module, then 2, 3 and 5 on four sets of connectors, each in 39 waves; their scenes are read, not run.

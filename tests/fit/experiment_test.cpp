@@ -173,6 +173,46 @@ TEST(PlannedTows, ReachTheWidthThatIsAskedFor) {
   EXPECT_THAT([&] { fit::told_by(p, 60); }, ThrowsMessage<hydro::InputError>(HasSubstr("noise of the force")));
 }
 
+// Against the plain search of a cycle for the largest D sin|sin| + I cos, with drag leading, and with inertia that is
+// more than twice of it.
+TEST(LoadSizes, AreThoseOfAPlainSearch) {
+  const fit::Cylinder cylinder{.diameter = 0.12,
+                               .length = 0.5,
+                               .density = 997,
+                               .viscosity = {},
+                               .experiment = fit::Experiment::body_moves,
+                               .mass_beyond_load_cells = 2};
+  for (const double kc : {2.0, 6.0, 25.0}) {
+    const double period = 4, speed = kc * 0.12 / period, w = 2 * std::numbers::pi / period;
+    const auto told = fit::load_sizes(cylinder, speed, period, 1.2, 1.1);
+    const double drag = 0.5 * 997 * 1.2 * 0.12 * 0.5 * speed * speed,
+                 inertia = (997 * 1.1 * std::numbers::pi / 4 * 0.12 * 0.12 * 0.5 + 2) * w * speed;
+    double largest = 0;
+    for (int i = 0; i < 100000; ++i) {
+      const double t = i * period / 100000, u = std::sin(w * t);
+      largest = std::max(largest, drag * u * std::abs(u) + inertia * std::cos(w * t));
+    }
+    EXPECT_NEAR(told.drag, drag, 1e-12 * drag);
+    EXPECT_NEAR(told.inertia, inertia, 1e-12 * inertia);
+    EXPECT_NEAR(told.largest, largest, 1e-8 * largest) << kc;  // a 100 000th of a turn off the top, squared
+  }
+}
+
+TEST(LoadSizes, OfDragOverInertiaAreHendriksensEquation) {
+  // F_D/F_I of a cylinder without other mass, Hendriksen (2023), equations 2.10 and 2.12.
+  const fit::Cylinder cylinder{
+      .diameter = 0.12, .length = 0.5, .density = 997, .viscosity = {}, .experiment = fit::Experiment::body_moves};
+  const auto told = fit::load_sizes(cylinder, 0.6, 4, 1.2, 2);
+  EXPECT_NEAR(told.drag / told.inertia, fit::drag_over_inertia(1.2, 0.6 * 4 / 0.12, 2), 1e-12);
+  EXPECT_THROW(fit::drag_over_inertia(1.2, 0, 2), hydro::InputError);
+  EXPECT_THROW(fit::load_sizes(cylinder, 0.6, -4, 1.2, 2), hydro::InputError);
+}
+
+TEST(SheddingFrequency, IsThatOfTheSource) {
+  EXPECT_NEAR(fit::shedding_frequency_hz(0.25, 0.85, 0.12), 1.8, 0.05);  // Hendriksen (2023), 4.7.5, two digits
+  EXPECT_THROW(fit::shedding_frequency_hz(0, 0.85, 0.12), hydro::InputError);
+}
+
 // From rest to U takes U²/2a, as does the way to rest: L = U²/a + U t.
 TEST(SteadyTow, IsWhatTheRampsLeave) {
   EXPECT_DOUBLE_EQ(fit::steady_tow_s(60, 0.85, 1), 60 / 0.85 - 0.85);

@@ -178,17 +178,17 @@ auto tried(Of of, PeriodicSystem& system, const MatrixXd& Y, const Samples& samp
 }
 
 /// Steps with the derivatives that a step of the length `last` was taken with: each is shorter than the one before by
-/// much the same share q, and what is left after one of length s is s q/(1 − q). True once that is rounding; false
-/// where q tells that the derivatives are to be taken anew. Y and r go on as far as steps are good.
-bool by_chords(PeriodicSystem& system, const hydro::dense::Lu& derivatives, double last, const Samples& samples,
-               MatrixXd& Y, VectorXd& r) {
+/// much the same share q, and what is left after one of length s is s q/(1 − q). True once that is `enough` of the
+/// motion; false where q tells that the derivatives are to be taken anew. Y and r go on as far as steps are good.
+bool by_chords(PeriodicSystem& system, const hydro::dense::Lu& derivatives, double last, double enough,
+               const Samples& samples, MatrixXd& Y, VectorXd& r) {
   constexpr double slowest = 0.3;
   for (;;) {
     const VectorXd step = derivatives.solve(-r);
-    const double length = step.norm(), q = length / last, rounding = 1e-9 * Y.norm();
-    if (!(q < slowest) && !(length <= rounding)) return false;
+    const double length = step.norm(), q = length / last, goal = enough * Y.norm();
+    if (!(q < slowest) && !(length <= goal)) return false;
     const MatrixXd next = Y + Eigen::Map<const MatrixXd>(step.data(), Y.rows(), Y.cols());
-    if (length <= rounding || length * q / (1 - q) <= rounding) {
+    if (length <= goal || length * q / (1 - q) <= goal) {
       Y = next;
       return true;
     }
@@ -204,6 +204,8 @@ bool by_chords(PeriodicSystem& system, const hydro::dense::Lu& derivatives, doub
 /// Empty: none, and `why`.
 std::optional<MatrixXd> solve(PeriodicSystem& system, MatrixXd Y, const Samples& samples, const BalanceOptions& options,
                               Balance& report) {
+  // Differences within the system leave 1e-9 of the motion, below which Newton only stirs.
+  constexpr double stirred = 1e-9;
   for (int i = 0; i < options.iterations; ++i) {
     ++report.iterations;
     const std::optional<BalanceEquations> e = tried(equations, system, Y, samples);
@@ -212,9 +214,8 @@ std::optional<MatrixXd> solve(PeriodicSystem& system, MatrixXd Y, const Samples&
     const VectorXd step = derivatives.solve(-e->residual);
     if (!step.allFinite()) break;
     const MatrixXd change = Eigen::Map<const MatrixXd>(step.data(), Y.rows(), Y.cols());
-    // Newton's error is about the square of its last step, as shares of the motion; differences within the system leave
-    // 1e-9, below which Newton only stirs.
-    if (change.norm() <= std::max(1e-9, 0.01 * options.accuracy) * Y.norm() || step.norm() == 0)
+    // Newton's error is about the square of its last step, as shares of the motion.
+    if (change.norm() <= std::max(stirred, 0.01 * options.accuracy) * Y.norm() || step.norm() == 0)
       return MatrixXd(Y + change);
     double share = 1;
     std::optional<VectorXd> left;
@@ -223,7 +224,9 @@ std::optional<MatrixXd> solve(PeriodicSystem& system, MatrixXd Y, const Samples&
       if ((left && left->norm() < before) || share < 1e-3) break;
     }
     Y += share * change;
-    if (left && share == 1 && by_chords(system, derivatives, step.norm(), samples, Y, *left)) return Y;
+    if (left && share == 1 &&
+        by_chords(system, derivatives, step.norm(), std::max(stirred, 1e-3 * options.accuracy), samples, Y, *left))
+      return Y;
   }
   report.why = fmt::format("Newton finds no motion of {:.6g} s with {} harmonics",
                            2 * std::numbers::pi / samples.omega(), samples.harmonics());
@@ -538,7 +541,7 @@ Eigen::VectorXcd floquet_multipliers(PeriodicSystem& system, const PeriodicMotio
     out.Q.bottomRows(n) = now.topRightCorner(n, z);
     return out;
   };
-  constexpr double tolerance = 1e-10;  // derivatives by differences leave 1e-9
+  constexpr double tolerance = 1e-9;  // as derivatives by differences leave
   return floquet_multipliers(disturbed, 2 * std::numbers::pi / motion.omega, tolerance);
 }
 

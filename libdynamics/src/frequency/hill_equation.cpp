@@ -28,9 +28,10 @@ Eigen::Vector3d along(PeriodicSystem& system, const CoordinateMotion& motion, co
 }  // namespace
 
 double HillEquation::growth(double size) const {
+  const PeriodicMotion varying{omega, by_size};
   const auto a = [&](double t) {
     Eigen::Vector3d kcm = at_rest;
-    kcm += size * PeriodicMotion{omega, by_size}.at(t).value;
+    kcm += size * varying.at(t).value;
     return Eigen::MatrixXd(Eigen::Matrix2d{{0, 1}, {-kcm[0] / kcm[2], -kcm[1] / kcm[2]}});
   };
   return std::abs(floquet_multipliers(a, 2 * std::numbers::pi / omega)[0]);

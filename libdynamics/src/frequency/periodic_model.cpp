@@ -1,5 +1,7 @@
 #include "dynamics/frequency/periodic_model.hpp"
 
+#include <algorithm>
+
 #include "dynamics/spatial/rotation.hpp"
 #include "hydro/base/dense.hpp"
 #include "hydro/base/error.hpp"
@@ -99,40 +101,62 @@ PeriodicModel::PeriodicModel(const Model& model, const SmallMotions& about,
   basis_ *= (basis_.transpose() * metric).diagonal().cwiseSqrt().cwiseInverse().asDiagonal();
   inverse_ = basis_.transpose() * about.mass.diagonal().asDiagonal();
   for (int m = 0; m < model.modes(); ++m)
-    if (!model.is_free(m)) held_.push_back(m);
+    if (model.is_free(m)) free_.push_back(m);
   for (const RadiatingModes& g : radiation) radiating_.insert(radiating_.end(), g.modes.begin(), g.modes.end());
   memory_ = memory_of(radiation);
   step_ = 1e-5 * basis_.cwiseAbs().colwise().maxCoeff().cwiseInverse().transpose();  // 10 µm or 10 µrad
 }
 
+VectorXd PeriodicModel::expanded(const VectorXd& free) const {
+  VectorXd out = VectorXd::Zero(basis_.rows());
+  out(free_) = free;
+  return out;
+}
+
 // (Q13)
 PeriodicModel::Closed PeriodicModel::closed(const VectorXd& value, VectorXd displacement) const {
   const JointSet& joints = model_.joints();
-  const Index n = size(), m = joints.count(), all = basis_.rows(), held = static_cast<Index>(held_.size());
-  VectorXd right(all);
-  MatrixXd S(all, all), J;
-  S.topRows(n) = inverse_;
-  S.bottomRows(held).setZero();
-  for (Index i = 0; i < held; ++i) S(n + m + i, held_[static_cast<std::size_t>(i)]) = 1;
+  const Index n = size(), m = joints.count(), free = static_cast<Index>(free_.size());
+  VectorXd right(n + m);
+  MatrixXd S(n + m, free), J;
+  S.topRows(n) = inverse_(Eigen::all, free_);
   State state;
-  // Quadratic: after a change of 1e-7 (m, rad) its square is left, which is rounding.
+  // J and S are those before the last change (m, rad), and what is left is its square.
+  constexpr double rounding = 1e-10;
   constexpr int most = 20;
   for (int i = 0;; ++i) {
     move(rest_, displacement, state);
     J = velocity_by_displacement(displacement);
-    S.middleRows(n, m) = joints.dense(joints.gradients(state)) * J;
-    right << value - inverse_ * displacement, -joints.values(state), -displacement(held_);
+    S.bottomRows(m) = (joints.dense(joints.gradients(state)) * J)(Eigen::all, free_);
+    right << value - inverse_ * displacement, -joints.values(state);
     hydro::dense::Lu square(S);
     const VectorXd change = square.solve(right);
     if (!change.allFinite() || i == most)
       throw hydro::NumericsError("joints cannot be closed in a periodic motion that is tried");
-    displacement += change;
-    if (change.cwiseAbs().maxCoeff() > 1e-7) continue;
+    displacement += expanded(change);
+    if (change.cwiseAbs().maxCoeff() > rounding) continue;
     move(rest_, displacement, state);
-    MatrixXd by_y(all, n);
-    for (Index k = 0; k < n; ++k) by_y.col(k) = square.solve(VectorXd::Unit(all, k));
+    MatrixXd by_y(basis_.rows(), n);
+    for (Index k = 0; k < n; ++k) by_y.col(k) = expanded(square.solve(VectorXd::Unit(n + m, k)));
     return {std::move(state), std::move(displacement), std::move(J), std::move(by_y), std::move(square)};
   }
+}
+
+const PeriodicModel::Closed& PeriodicModel::place_of(const CoordinateMotion& motion) {
+  constexpr std::size_t most = 1024;
+  auto at = std::lower_bound(asked_.begin(), asked_.end(), motion.time,
+                             [](const Asked& a, double time) { return a.time < time; });
+  if (at != asked_.end() && at->time == motion.time) {
+    if (at->value != motion.value) {
+      const VectorXd near = at->place->displacement + at->place->by_y * (motion.value - at->value);
+      at->place = std::make_unique<const Closed>(closed(motion.value, near));
+      at->value = motion.value;
+    }
+    return *at->place;
+  }
+  auto place = std::make_unique<const Closed>(closed(motion.value, basis_ * motion.value));
+  if (asked_.size() >= most) asked_.clear(), at = asked_.end();
+  return *asked_.insert(at, {motion.time, motion.value, std::move(place)})->place;
 }
 
 PeriodicModel::Bodies PeriodicModel::moving(const Closed& at, const CoordinateMotion& motion) const {
@@ -142,10 +166,10 @@ PeriodicModel::Bodies PeriodicModel::moving(const Closed& at, const CoordinateMo
   const VectorXd rate = at.by_y * motion.rate, bent = acceleration_of_rates(at.displacement, rate, at.J);
   out.state.velocity = at.J * rate;
   out.state.time = motion.time;
-  VectorXd right(basis_.rows());
-  right << motion.acceleration, -joints.convective(out.state), VectorXd::Zero(basis_.rows() - n - m);
-  right.segment(n, m) -= joints.dense(joints.gradients(out.state)) * bent;
-  out.acceleration = at.J * at.square.solve(right) + bent;
+  VectorXd right(n + m);
+  right << motion.acceleration, -joints.convective(out.state);
+  right.tail(m) -= joints.dense(joints.gradients(out.state)) * bent;
+  out.acceleration = at.J * expanded(at.square.solve(right)) + bent;
   return out;
 }
 
@@ -160,7 +184,8 @@ VectorXd PeriodicModel::residual(const Bodies& b, const VectorXd& load) {
 }
 
 VectorXd PeriodicModel::memory_velocity(const CoordinateMotion& motion) {
-  return bodies(motion).state.velocity(radiating_);
+  const Closed& at = place_of(motion);
+  return (at.J * (at.by_y * motion.rate))(radiating_);
 }
 
 VectorXd PeriodicModel::multipliers(const Bodies& b, const VectorXd& load) {
@@ -170,7 +195,7 @@ VectorXd PeriodicModel::multipliers(const Bodies& b, const VectorXd& load) {
 }
 
 VectorXd PeriodicModel::residual_at(const CoordinateMotion& motion, const VectorXd& load) {
-  const Bodies here = bodies(motion);
+  const Bodies here = moving(place_of(motion), motion);
   return here.by_coordinate.transpose() * residual(here, load);
 }
 
@@ -184,7 +209,7 @@ PeriodicSample PeriodicModel::roughly_at(const CoordinateMotion& motion, const V
 
 PeriodicSample PeriodicModel::sample(const CoordinateMotion& motion, const VectorXd& load, bool central) {
   const Index n = size(), m = static_cast<Index>(radiating_.size());
-  const Closed place = closed(motion.value, basis_ * motion.value);
+  const Closed& place = place_of(motion);
   const Bodies here = moving(place, motion);
   const auto projected = [&](const Bodies& b) { return VectorXd(b.by_coordinate.transpose() * residual(b, load)); };
   PeriodicSample out{.residual = projected(here),

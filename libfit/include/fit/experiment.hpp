@@ -24,6 +24,22 @@ struct OscillationNumbers {
 /// what they leave open, and for ones that contradict each other
 OscillationNumbers complete(const OscillationNumbers& given, double viscosity);
 
+/// Amplitude of drag over that of inertia in a flow that swings, C_D KC/(π² C), C being C_M of a held cylinder and C_A
+/// of one that moves. (F109) \throws hydro::InputError for a number that is not positive
+double drag_over_inertia(double cd, double kc, double inertia);
+
+/// What acts on a cylinder across a flow that swings, or that swings in still water; N.
+struct LoadSizes {
+  double drag, inertia;  ///< amplitudes; inertia with that of the mass beyond the load cells
+  double largest;        ///< of both together
+};
+/// (F109). `speed`: the largest, m/s. \throws hydro::InputError for a number that is not positive
+LoadSizes load_sizes(const Cylinder& cylinder, double speed, double period, double cd, double inertia);
+
+/// Of the vortices that a cylinder sheds in a steady flow, St U/D, Hz; (F109). \throws hydro::InputError for a number
+/// that is not positive
+double shedding_frequency_hz(double strouhal, double speed, double diameter);
+
 /// What a record is to be like, and what it is to tell.
 struct PlannedOscillation {
   Cylinder cylinder;

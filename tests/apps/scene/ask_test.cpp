@@ -16,6 +16,17 @@ TEST(SceneAsk, TurnsPeriodsIntoIncreasingFrequencies) {
   EXPECT_DOUBLE_EQ(parse(text, "scene.toml").rao->omega.front(), 0.2 * std::numbers::pi);
 }
 
+TEST(SceneAsk, TakesOneValueForARange) {
+  const AskRao rao =
+      *parse(with(pontoons, "periods = \"2 s .. 8 s, 61 values\"", "periods = \"5 s\""), "scene.toml").rao;
+  ASSERT_EQ(rao.omega.size(), 1u);
+  EXPECT_DOUBLE_EQ(rao.omega[0], 2 * std::numbers::pi / 5);
+  EXPECT_THAT(refusal(with(pontoons, "periods = \"2 s .. 8 s, 61 values\"", "periods = \"5 m\"")),
+              HasSubstr("is a length"));
+  EXPECT_THAT(refusal(with(pontoons, "periods = \"2 s .. 8 s, 61 values\"", "periods = \"0 s\"")),
+              HasSubstr("must be positive"));
+}
+
 TEST(SceneAsk, RefusesRangesThatAreNone) {
   const auto range = [](const std::string& value) {
     return with(pontoons, "periods = \"2 s .. 8 s, 61 values\"", value);

@@ -106,6 +106,14 @@ TEST(Floquet, MemoryThatIsEliminatedLeavesTheMonodromyOfTheWhole) {
   }
 }
 
+// States that act on each other far apart are one block, whichever lie between.
+TEST(Floquet, MemoryOfOneBlockIsEliminatedWhole) {
+  PeriodicWithMemory system = with_memory(2);
+  system.A(0, 2) = 0.4;
+  const Eigen::MatrixXd expected = monodromy(whole(system), two_pi), found = monodromy(system, two_pi, 1e-10);
+  EXPECT_LT((found - expected).norm(), 1e-10 * expected.norm());  // what was asked
+}
+
 TEST(Floquet, WithoutAMemoryCollocationIsTheExplicitPair) {
   PeriodicWithMemory system = with_memory(1);
   system.A = Eigen::MatrixXd(0, 0), system.B = Eigen::MatrixXd(0, 0);

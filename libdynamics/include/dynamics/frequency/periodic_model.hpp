@@ -58,10 +58,20 @@ class PeriodicModel : public PeriodicSystem {
     State state;                   ///< without velocities
     Eigen::VectorXd displacement;  ///< (6N)
     Eigen::MatrixXd J, by_y;       ///< velocity by the displacement's rate, (6N, 6N); displacement by y, (6N, n)
-    hydro::dense::Lu square;       ///< of S
+    hydro::dense::Lu square;       ///< of S, (free, free)
+  };
+  /// Where bodies were when they were last asked about at one time of the period.
+  struct Asked {
+    double time;
+    Eigen::VectorXd value;  ///< (n)
+    std::unique_ptr<const Closed> place;
   };
   /// `near`: a displacement to begin with. \throws hydro::NumericsError where joints cannot be closed
   Closed closed(const Eigen::VectorXd& value, Eigen::VectorXd near) const;
+  /// The same for a motion, from where it was last at that time: Newton's steps are short. \throws as closed()
+  const Closed& place_of(const CoordinateMotion& motion);
+  /// A displacement whose free modes are given, and 0 in the others.
+  Eigen::VectorXd expanded(const Eigen::VectorXd& free) const;
   Bodies moving(const Closed& at, const CoordinateMotion& motion) const;
   Eigen::VectorXd residual(const Bodies& bodies, const Eigen::VectorXd& load);
   /// Derivatives by differences to both sides, or to one with an error as their step.
@@ -71,11 +81,12 @@ class PeriodicModel : public PeriodicSystem {
   State rest_;
   double omega_;
   Eigen::MatrixXd basis_, inverse_;  ///< N, and what brings displacements down to y
-  std::vector<int> held_;            ///< modes that are not free
+  std::vector<int> free_;            ///< modes that are
   std::vector<int> radiating_;       ///< modes of the model, in the order of the memory
   PeriodicMemory memory_;
   Eigen::VectorXd step_;  ///< of differences, one a coordinate
   Workspace workspace_;
+  std::vector<Asked> asked_;  ///< rising times; no more than a motion has samples
 };
 
 }  // namespace dynamics::frequency
