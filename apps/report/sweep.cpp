@@ -18,10 +18,13 @@ Json cell_told(const sweep::Cell& cell) {
 Json pictures_told(const sweep::Study& study) {
   Json out = Json::array();
   for (const sweep::Picture& p : study.pictures) {
-    Json one{{"of", p.of.value}, {"x", p.x.value}};
-    if (p.y) one["y"] = p.y->value;
-    if (p.by) one["by"] = p.by->value;
-    out.push_back(one);
+    if (sweep::is_over_time(study, p)) continue;  // of runs, which are reports of their own
+    for (const auto& of : p.of) {
+      Json one{{"of", of.value}, {"x", p.x.value}};
+      if (p.y) one["y"] = p.y->value;
+      if (p.by) one["by"] = p.by->value;
+      out.push_back(one);
+    }
   }
   return out;
 }
