@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "hydro/base/error.hpp"
+#include "hydro/base/types.hpp"
 #include "hydro/base/units.hpp"
 #include "hydro/io/csv.hpp"
 
@@ -88,9 +89,8 @@ class Table {
     for (const std::string& axis : axes_) add_axis(content_.array(axis));
     for (const Array& a : content_.arrays) {
       if (a.is_axis()) continue;
-      if (a.along.empty())
-        comments_.push_back(
-            fmt::format("{} = {:.6g}{}{}", a.name, a.values.front(), a.unit.empty() ? "" : " ", a.unit));
+      if (a.along.empty() && !a.values.empty())
+        comments_.push_back(told(a));
       else if (!a.texts.empty() || !fits(a))
         left_out.push_back(a.name);
       else
@@ -120,6 +120,12 @@ class Table {
     return !axes.empty() && std::all_of(axes.begin(), axes.end(), [&](const std::string& axis) {
       return std::find(axes_.begin(), axes_.end(), axis) != axes_.end();
     });
+  }
+  /// One number, an angle in degrees as in columns.
+  static std::string told(const Array& a) {
+    const bool is_angle = a.unit == "rad";
+    const double value = is_angle ? hydro::Angle::from_radians(a.values.front()).degrees() : a.values.front();
+    return fmt::format("{} = {:.6g}{}{}", a.name, value, a.unit.empty() ? "" : " ", is_angle ? "deg" : a.unit);
   }
   void add_axis(const Array& axis) {
     const bool is_angle = axis.unit == "rad";
