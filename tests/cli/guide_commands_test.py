@@ -1,5 +1,4 @@
 """The commands that pages of the guide tell are run as they stand there. Usage: guide_commands_test.py FROUDE SOURCE"""
-import shlex
 import shutil
 import subprocess
 import sys
@@ -7,18 +6,14 @@ import tempfile
 import unittest
 from pathlib import Path
 
+from documents import commands_of
+
 FROUDE, SOURCE = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
 PAGES = {"experiments.md": 5, "export.md": 6, "tank-day.md": 4, "lines.md": 4, "response.md": 4, "spectra.md": 2, "stability.md": 2}  # and how many commands at least
 HAS_REPORTS = "has no reports" not in subprocess.run(
     [str(FROUDE), "report", "x.h5", "-o", "x.html"], capture_output=True, text=True, check=False).stderr
 if HAS_REPORTS:  # an optional part of a build
     PAGES["report.md"] = 5
-
-
-def commands_of(page):
-    """Indented lines that begin with froude, with those that a backslash continues."""
-    text = (SOURCE / "docs/guide" / page).read_text(encoding="utf-8").replace("\\\n", " ")
-    return [shlex.split(line) for line in text.splitlines() if line.startswith("    froude ")]
 
 
 class GuideCommands(unittest.TestCase):
@@ -34,7 +29,7 @@ class GuideCommands(unittest.TestCase):
 
     def test_run_as_they_stand_in_the_guide(self):
         for page, least in PAGES.items():
-            commands = commands_of(page)
+            commands = [command.words for command in commands_of(SOURCE / "docs/guide" / page)]
             self.assertGreaterEqual(len(commands), least, page)
             for command in commands:
                 with self.subTest(page=page, command=command):
