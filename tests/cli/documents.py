@@ -15,14 +15,14 @@ class Command:
     printed: list = field(default_factory=list)  # lines that the page shows behind it
 
 
-def commands_of(page):
+def commands_of(text):
     """Indented lines that begin with froude, with those that a backslash continues, and the output blocks behind each."""
-    text = page.read_text(encoding="utf-8").replace("\\\n", " ")
+    text = text.replace("\\\n", " ")
     pieces = [(line.start(), Command(shlex.split(line.group(0)))) for line in re.finditer(rf"^{COMMAND}.*$", text, re.MULTILINE)]
     for block in OUTPUT.finditer(text):
         before = [command for at, command in pieces if at < block.start()]
         if not before:
-            raise ValueError(f"{page}: an output block stands before any command")
+            raise ValueError("an output block stands before any command")
         before[-1].printed += block.group(1).splitlines()
     return [command for _, command in pieces]
 

@@ -29,7 +29,7 @@ class GuideCommands(unittest.TestCase):
 
     def test_run_as_they_stand_in_the_guide(self):
         for page, least in PAGES.items():
-            commands = [command.words for command in commands_of(SOURCE / "docs/guide" / page)]
+            commands = [command.words for command in commands_of((SOURCE / "docs/guide" / page).read_text(encoding="utf-8"))]
             self.assertGreaterEqual(len(commands), least, page)
             for command in commands:
                 with self.subTest(page=page, command=command):

@@ -27,7 +27,7 @@ class Tutorials(unittest.TestCase):
         shutil.rmtree(self.folder)
 
     def follow(self, name, least):
-        commands = commands_of(TUTORIALS / name)
+        commands = commands_of((TUTORIALS / name).read_text(encoding="utf-8"))
         self.assertGreaterEqual(len(commands), least)
         self.assertTrue(any(command.printed for command in commands))
         for command in commands:

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Checks that the documents and the code still agree.
 
-    checks.py tags|includes|links|quotes|words|extending ROOT
+    checks.py tags|includes|links|quotes|words|extending|examples ROOT
 
 Each check returns a list of complaints, one line each with file and line; the program fails if there is any.
 Python's standard library only.
@@ -422,6 +422,28 @@ def check_extending(root):
     return complaints
 
 
+# Scripts that make data of other examples, and what they share, are no examples themselves; nor is what `froude calibrate` writes.
+NO_EXAMPLE = re.compile(r"(make_\w+|made_files)\.py|lens\.toml")
+INDEX = Path("docs", "examples.md")
+
+
+def check_examples(root):
+    """docs/examples.md has each example: a scene or a study under a heading with its command, time and picture, a program in a row."""
+    text = (root / INDEX).read_text(encoding="utf-8")
+    linked = {(root / "docs" / target).resolve() for target in re.findall(r"\]\((\.\./examples/[^)\s]+)\)", text)}
+    complaints = [f"{INDEX}:1: {path.relative_to(root)} is missing" for path in files_below(root, ["examples"], {".toml", ".py", ".cpp"})
+                  if not NO_EXAMPLE.fullmatch(path.name) and path.resolve() not in linked]
+    for heading in re.finditer(r"^### \[([^\]]+)\]\(\.\./examples/([^)\s]+)\)\n(.*?)(?=^##|\Z)", text, re.DOTALL | re.MULTILINE):
+        name, target, section = heading.groups()
+        place = f"{INDEX}:{text.count(chr(10), 0, heading.start()) + 1}"
+        if name != target:
+            complaints.append(f"{place}: {name} leads to {target}")
+        wanted = {"a command that names it": rf"^    froude .*examples/{re.escape(target)}\b", "its time": r"^Takes .*\d (s|min)\.$",
+                  "a picture": r"^!\[[^\]]+\]\(pictures/examples/"}
+        complaints += [f"{place}: {name} has not {what}" for what, pattern in wanted.items() if not re.search(pattern, section, re.MULTILINE)]
+    return complaints
+
+
 WORDED_SUFFIXES = {".hpp", ".cpp", ".py", ".md", ".toml"}
 
 
@@ -451,7 +473,7 @@ def check_words(root):
 
 
 CHECKS = {"tags": check_tags, "includes": check_includes, "links": check_links, "quotes": check_quotes, "words": check_words,
-          "extending": check_extending}
+          "extending": check_extending, "examples": check_examples}
 
 
 def main(arguments):

@@ -217,6 +217,26 @@ class Extending(ChecksCase):
         self.refuses("extending", {"docs/guide/extending.md": page, "a.hpp": "class Kind {};\n"}, "A force element", "does not have the steps")
 
 
+class Examples(ChecksCase):
+    SECTION = ("# Examples\n\n### [a.toml](../examples/a.toml)\n\nWhat?\n\n    froude run examples/a.toml --picture a.svg\n\nTakes 3 s.\n\n"
+               "![a](pictures/examples/a.png)\n")
+    FILES = {"docs/examples.md": SECTION, "examples/a.toml": "schema = 1\n", "examples/fit/make_a.py": "pass\n"}
+
+    def test_accept_an_index_that_has_all(self):
+        self.accepts("examples", self.FILES)
+
+    def test_refuse_one_that_lacks_an_example(self):
+        for name in ("examples/sweep/b.toml", "examples/c.py", "examples/library/d.cpp"):
+            with self.subTest(name=name):
+                self.refuses("examples", self.FILES | {name: "\n"}, "docs/examples.md:1", f"{name} is missing")
+
+    def test_refuse_a_section_that_lacks_something(self):
+        for old, new, word in (("examples/a.toml --", "examples/ab.toml --", "a command"), ("Takes 3 s.", "Takes ? s.", "its time"),
+                               ("![a](pictures/examples/", "[a](pictures/examples/", "a picture"), ("### [a.toml]", "### [b.toml]", "leads to a.toml")):
+            with self.subTest(word=word):
+                self.refuses("examples", self.FILES | {"docs/examples.md": self.SECTION.replace(old, new)}, "docs/examples.md:3", word)
+
+
 class Words(ChecksCase):
     def test_refuses_strangers_with_file_line_and_term(self):
         for path, line, term in (

@@ -57,7 +57,7 @@ class Refusals(unittest.TestCase):
     def test_a_part_that_there_is_not_is_refused(self):
         ran = self.setup_with("camra", dpkg_query="echo installed", apt_get="exit 1")
         self.assertEqual(ran.returncode, 1)
-        self.assertRegex(ran.stderr, r'no part "camra"; there are scripts/setup camera, mpi and report')
+        self.assertRegex(ran.stderr, r'no part "camra"; there are scripts/setup camera, mpi, report and site')
 
     def test_a_system_without_apt_is_told_so(self):
         ran = self.setup_with(id="echo 0")
