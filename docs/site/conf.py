@@ -1,5 +1,5 @@
-"""How Sphinx makes the site of what scripts/site has laid out. Equations of docs/theory are text with Unicode; typeset() gives them the
-letters, indices and exponents of print, without any script in the browser."""
+"""How Sphinx makes the site of what scripts/site has laid out. Equations of docs/theory are text with Unicode; typeset()
+gives them the letters, indices and exponents of print, without any script in the browser."""
 import html
 import re
 
@@ -21,12 +21,11 @@ myst_heading_anchors = 4
 highlight_language = "none"
 suppress_warnings = ["myst.header"]
 
-UPRIGHT = ("Re|Im|sin|cos|tan|sinh|cosh|tanh|coth|exp|ln|log|max|min|sup|inf|diag|conj|sqrt|arg|det|tr|sign|rms|atan|atan2|acos|asin|erf|mod|"
-           "var|cov|span|rank|dim")
-TOKEN = re.compile(rf"(?P<raise>\^|_)(?:\{{(?P<braced>[^{{}}]*)\}}|(?P<single>[A-Za-z0-9α-ωΑ-Ω∞*+−-]))|(?P<word>(?:{UPRIGHT})\b|[A-Za-z]{{2,}})|"
-                   r"(?P<letter>[A-Za-zα-ωϑϕ])|(?P<other>.)", re.DOTALL)
-# In running text: a letter with an index or an exponent, in braces or of one to three letters or digits.
-IN_TEXT = re.compile(r"(?<![\w/.-])([A-Za-zα-ωΑ-Ω]̄?|[)\]])([_^])(?:\{([^{}]*)\}|(\w{1,3})(?!\w))")
+TOKEN = re.compile(r"(?P<raise>[\^_])(?:\{(?P<braced>[^{}]*)\}|(?P<single>(?<=_)[A-Za-z0-9]{2,3}(?![A-Za-z0-9])|"
+                   r"[−-]?[A-Za-z0-9α-ωΑ-Ω]|[∞*+−-]))|(?P<word>[A-Za-z]{2,})|(?P<letter>[A-Za-zα-ωϑϕ])|(?P<other>.)", re.DOTALL)
+# In running text: an index or an exponent behind a letter by itself or a bracket, in braces or of one to three letters or digits.
+IN_TEXT = re.compile(r"(?:(?<=(?<![A-Za-z0-9/.-])[A-Za-zα-ωΑ-Ω])|(?<=[)\]}∫Σ∏∞₀-₉̂̄]))([_^])"
+                     r"(?:\{([^{}]*)\}|([−-]?\w{1,3}|[∞*+])(?!\w))")
 
 
 def typeset(text):
@@ -35,7 +34,8 @@ def typeset(text):
     for token in TOKEN.finditer(text):
         if token["raise"]:
             tag = "sup" if token["raise"] == "^" else "sub"
-            out.append(f"<{tag}>{typeset(token['braced'] if token['braced'] is not None else token['single'])}</{tag}>")
+            inside = token["braced"] if token["braced"] is not None else token["single"]
+            out.append(f"<{tag}>" + (f"<i>{inside}</i>" if re.fullmatch("[a-z]{2}", inside) else typeset(inside)) + f"</{tag}>")
         elif token["letter"]:
             out.append(f"<i>{token['letter']}</i>")
         else:
@@ -47,12 +47,15 @@ def pieces(text):
     """Text and raised or lowered pieces of a paragraph, as nodes."""
     at = 0
     for found in IN_TEXT.finditer(text):
-        yield nodes.Text(text[at:found.end(1)])
-        inner = found[3] if found[3] is not None else found[4]
-        node = nodes.superscript if found[2] == "^" else nodes.subscript
+        yield nodes.Text(text[at:found.start()])
+        inner = found[2] if found[2] is not None else found[3]
+        node = nodes.superscript if found[1] == "^" else nodes.subscript
         yield node("", inner)
         at = found.end()
     yield nodes.Text(text[at:])
+
+
+AS_IT_IS = (nodes.literal, nodes.literal_block, nodes.raw, nodes.title, nodes.comment)
 
 
 class Equations(SphinxPostTransform):
@@ -63,10 +66,11 @@ class Equations(SphinxPostTransform):
             return
         for block in list(self.document.findall(nodes.literal_block)):
             if block.get("language", "default") in ("default", "none"):
-                block.replace_self(nodes.raw("", f'<pre class="equation">{typeset(block.astext())}</pre>', format="html"))
+                set_ = f'<pre class="equation">{typeset(block.astext())}</pre>'
+                block.replace_self(nodes.raw("", set_, format="html"))
         for text in list(self.document.findall(nodes.Text)):
             inside = text.parent
-            if not isinstance(inside, (nodes.literal, nodes.literal_block, nodes.raw, nodes.title, nodes.comment)) and IN_TEXT.search(text):
+            if not isinstance(inside, AS_IT_IS) and IN_TEXT.search(text):
                 inside.replace(text, list(pieces(text.astext())))
 
 

@@ -41,8 +41,9 @@ class Index(unittest.TestCase):
                 continue
             for command in commands:
                 with self.subTest(example=example, command=command):
-                    done = subprocess.run([str(FROUDE), *command[1:], *(["--plan"] if example in PLANNED else [])], cwd=self.folder,
-                                          capture_output=True, text=True, timeout=300, check=False)
+                    planned = ["--plan"] if example in PLANNED else []
+                    done = subprocess.run([str(FROUDE), *command[1:], *planned], cwd=self.folder, capture_output=True,
+                                          text=True, timeout=300, check=False)
                     self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
                     if "--picture" in command:
                         self.assertTrue((self.folder / command[command.index("--picture") + 1]).exists())
