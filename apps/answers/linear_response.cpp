@@ -26,7 +26,18 @@ namespace {
 
 constexpr const char* per_metre = " per metre of wave amplitude";
 
-using dynamics::frequency::LinearDrag, dynamics::frequency::SmallMotions;
+using dynamics::frequency::LinearDrag, dynamics::frequency::SignalAmplitudes, dynamics::frequency::SmallMotions;
+
+/// All signals, which vary so.
+std::vector<ComplexSignal> responses_of(const std::vector<compile::Signal>& signals,
+                                        const std::vector<dynamics::Variation>& variations,
+                                        const SignalAmplitudes& amplitudes) {
+  std::vector<ComplexSignal> out;
+  for (std::size_t i = 0; i < signals.size(); ++i)
+    out.push_back(
+        {signals[i].name, signals[i].unit + "/m", signals[i].meaning + per_metre, amplitudes.of(variations[i])});
+  return out;
+}
 
 /// Transfer functions of all signals at the components of a sea, one row a signal.
 Eigen::MatrixXcd transfer(const compile::Prepared& prepared, const SmallMotions& about,
@@ -129,23 +140,16 @@ std::vector<LinearDrag> drag_of_sea(const Eigen::VectorXd& coefficient, const sc
 
 }  // namespace
 
+std::vector<dynamics::Variation> variations_of(const std::vector<compile::Signal>& signals, const SmallMotions& about) {
+  const dynamics::Still still(about.still, about.linear.multipliers);
+  std::vector<dynamics::Variation> out;
+  for (const auto& signal : signals) out.push_back(signal.variation(still));
+  return out;
+}
+
 std::vector<ComplexSignal> linear_responses(const std::vector<compile::Signal>& signals, const SmallMotions& about,
                                             const dynamics::frequency::Amplitudes& found, const Cells& cells) {
-  const dynamics::Still still(about.still, about.linear.multipliers);
-  std::vector<ComplexSignal> out;
-  for (const auto& signal : signals) {
-    const dynamics::Variation variation = signal.variation(still);
-    ComplexSignal s{signal.name, signal.unit + "/m", signal.meaning + per_metre, {}};
-    s.values.reserve(cells.headings.size() * cells.omega.size());
-    for (std::size_t h = 0; h < cells.headings.size(); ++h)
-      for (std::size_t w = 0; w < cells.omega.size(); ++w) {
-        const auto column = static_cast<Eigen::Index>(w);
-        s.values.push_back(dynamics::amplitude(variation, found.xi[h].col(column), found.lambda[h].col(column),
-                                               cells.omega[w], cells.headings[h]));
-      }
-    out.push_back(std::move(s));
-  }
-  return out;
+  return responses_of(signals, variations_of(signals, about), {found, cells.omega, cells.headings});
 }
 
 std::vector<std::string> left_out_of_linear_responses(const scene::Scene& scene, const compile::Prepared& prepared,
@@ -218,30 +222,35 @@ Responses respond(const scene::Scene& scene, const compile::Prepared& prepared, 
   SizeLeftOut size(scene, prepared, about, scene.rao->drag || how.drag_of_sea);
   // The lines that compute a RAO: (Q1) in libdynamics/src/frequency/equations.cpp.
   const auto answer = [&](const compile::Prepared& from, const std::vector<double>& omega,
-                          std::vector<std::string>& notes) {
+                          std::vector<std::string>& notes) -> SignalAmplitudes {
     const Cells cells{omega, scene.rao->headings};
     const dynamics::frequency::RaoOptions options{
         how.threads, how.drag_of_sea ? drag_of_sea(*how.drag_of_sea, scene, from, about, omega)
                                      : drag_of_rao(scene, from, about, omega, notes)};
     const auto found = response_amplitudes(about, from.groups, cells.omega, cells.headings, options);
     if (&from == &prepared) size.take(cells, found);
-    return linear_responses(signals, about, found, cells);
+    return {found, cells.omega, cells.headings};
   };
+  const std::vector<dynamics::Variation> variations = variations_of(signals, about);
   std::vector<std::string> told_already;
   std::optional<Refined> between;
   if (how.refine) {
     require_two_frequencies(*scene.rao);
-    const auto more = [&](const std::vector<double>& omega) { return answer(prepared, omega, told_already); };
+    const auto more = [&](const std::vector<double>& omega) {
+      return responses_of(signals, variations, answer(prepared, omega, told_already));
+    };
     between = refined(out.omega, out.heading.size(), scene.accuracy, more);
     if (!told_already.empty()) out.notes.push_back(told_already.front());  // of drag, at the frequencies asked for
     out.omega = between->omega;
     out.signals = std::move(between->signals);
   } else {
-    out.signals = answer(prepared, out.omega, out.notes);
+    out.signals = responses_of(signals, variations, answer(prepared, out.omega, out.notes));
   }
   for (const std::string& told : size.told()) out.notes.push_back(told);
   out.error = error_of_spacing(scene, prepared, out.omega, out.signals, [&](const compile::Prepared& thinned) {
-    return answer(thinned, out.omega, told_already);
+    return [&variations, found = answer(thinned, out.omega, told_already)](std::size_t i) {
+      return found.of(variations[i]);
+    };
   });
   if (between)
     out.error.sources.push_back({.name = "frequencies",

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "compile/signal_list.hpp"
-#include "dynamics/frequency/amplitudes.hpp"
+#include "dynamics/frequency/signal_amplitudes.hpp"
 #include "froude/result.hpp"
 #include "hydro/base/parallel.hpp"
 
@@ -19,6 +19,10 @@ double height_of(const scene::AskRao::DragIn& waves, double omega, const hydro::
 struct Cells {
   std::vector<double> omega, headings;
 };
+
+/// How signals vary with small motions about where the bodies are still, one each.
+std::vector<dynamics::Variation> variations_of(const std::vector<compile::Signal>& signals,
+                                               const dynamics::frequency::SmallMotions& about);
 
 /// Signals per metre of wave about where the bodies are still, heading by heading, from the amplitudes of these cells.
 std::vector<ComplexSignal> linear_responses(const std::vector<compile::Signal>& signals,

@@ -53,9 +53,9 @@ bool is_between(const compile::Prepared& prepared, double omega) {
 std::vector<double> peaks(const std::vector<ComplexSignal>& signals) {
   std::vector<double> out;
   for (const auto& s : signals) {
-    double peak = 0;
-    for (const auto& v : s.values) peak = std::max(peak, std::abs(v));
-    out.push_back(peak);
+    double square = 0;
+    for (const auto& v : s.values) square = std::max(square, std::norm(v));
+    out.push_back(std::sqrt(square));
   }
   return at_least_a_thousandth(std::move(out), signals, &ComplexSignal::units);
 }
@@ -66,16 +66,22 @@ double extrapolated(double gap, double before) {
   return gap > 0 ? gap / (std::clamp(before / gap, least, order_of_cubic) - 1) : 0;
 }
 
+using Values = std::vector<std::complex<double>>;
+
+/// The largest difference of two answers, heading by heading, at the frequencies that count.
+double largest_gap(const Values& a, const Values& b, const std::vector<bool>& counts) {
+  double square = 0;
+  for (std::size_t first = 0; first < a.size(); first += counts.size())
+    for (std::size_t w = 0; w < counts.size(); ++w)
+      if (counts[w]) square = std::max(square, std::norm(a[first + w] - b[first + w]));
+  return std::sqrt(square);
+}
+
 /// The largest error of a signal, of its peak.
-double worst(const ComplexSignal& whole, const ComplexSignal& half, const ComplexSignal& quarter, double peak,
+double worst(const Values& whole, const Values& half, const Values& quarter, double peak,
              const std::vector<bool>& counts) {
-  double gap = 0, before = 0;
-  for (std::size_t k = 0; k < whole.values.size(); ++k) {
-    if (!counts[k % counts.size()] || peak == 0) continue;
-    gap = std::max(gap, std::abs(whole.values[k] - half.values[k]) / peak);
-    before = std::max(before, std::abs(half.values[k] - quarter.values[k]) / peak);
-  }
-  return extrapolated(gap, before);
+  if (peak == 0) return 0;
+  return extrapolated(largest_gap(whole, half, counts) / peak, largest_gap(half, quarter, counts) / peak);
 }
 
 /// Why the coefficients cannot be thinned twice; empty if they can.
@@ -108,7 +114,7 @@ ErrorEstimate error_of_spacing(const scene::Scene& scene, const compile::Prepare
   const auto peak = peaks(whole);
   out.sources.push_back(spacing_source());
   for (std::size_t i = 0; i < whole.size(); ++i)
-    out.sources.front().of_signal.push_back(worst(whole[i], half[i], quarter[i], peak[i], counts));
+    out.sources.front().of_signal.push_back(worst(whole[i].values, half(i), quarter(i), peak[i], counts));
   return out;
 }
 

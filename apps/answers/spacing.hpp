@@ -1,5 +1,6 @@
 #pragma once
 /// \file  What the spacing of the coefficients' frequencies does to linear answers: (E3). Private to apps.
+#include <complex>
 #include <functional>
 #include <vector>
 
@@ -10,8 +11,12 @@
 
 namespace froude {
 
-/// A linear answer from these coefficients: signals per metre of wave amplitude.
-using LinearAnswer = std::function<std::vector<ComplexSignal>(const compile::Prepared&)>;
+/// Values of signal number i per metre of wave amplitude, heading by heading: worked out as they are asked for, since
+/// those of all signals at once would fill fresh memory.
+using SignalValues = std::function<std::vector<std::complex<double>>(std::size_t)>;
+
+/// A linear answer from these coefficients.
+using LinearAnswer = std::function<SignalValues(const compile::Prepared&)>;
 
 /// The error of each value over the largest of its signal, and of signals of less than a thousandth of the largest of
 /// their unit over that thousandth, by answers from every second and every fourth frequency. Values at frequencies of

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -51,11 +52,10 @@ struct Peak {
 };
 
 Peak peak(std::span<const std::complex<double>> values, const std::vector<double>& omega) {
-  Peak best;
-  for (std::size_t i = 0; i < omega.size(); ++i)
-    if (std::abs(values[i]) >= best.amplitude)
-      best = {std::abs(values[i]), 2 * std::numbers::pi / omega[i], degrees(std::arg(values[i]))};
-  return best;
+  std::size_t best = 0;
+  for (std::size_t i = 1; i < omega.size(); ++i)
+    if (std::norm(values[i]) >= std::norm(values[best])) best = i;
+  return {std::abs(values[best]), 2 * std::numbers::pi / omega[best], degrees(std::arg(values[best]))};
 }
 
 /// One panel for each unit, so that metres and newtons do not share an axis.
@@ -182,12 +182,13 @@ void rao(const RaoArguments& arguments, const Console& console) {
   const compile::Prepared prepared = compile::prepare(scene);
   shares.end("preparing");
   const Responses per_metre = respond(scene, prepared, how);
-  const Responses r = arguments.nondimensional ? over_wave_slope(per_metre, scene.water) : per_metre;
+  std::optional<Responses> over_slope;
+  if (arguments.nondimensional) over_slope = over_wave_slope(per_metre, scene.water);
+  const Responses& r = over_slope ? *over_slope : per_metre;
   shares.end("answering");
   r.write(file);
   if (arguments.csv) interchange::write_csv(*arguments.csv, interchange::content_of(r));
-  plot::Figure drawn = figure(scene, r);
-  if (arguments.picture) plot::write_picture(*arguments.picture, drawn);
+  if (arguments.picture) plot::write_picture(*arguments.picture, figure(scene, r));
   shares.end("writing");
   Report report = report_of(scene, r, shares, file, console.json);
   if (!arguments.check.empty()) {
@@ -195,8 +196,11 @@ void rao(const RaoArguments& arguments, const Console& console) {
     const auto cells =
         check_in_time(scene, per_metre, arguments.check_steepness, [&](double done) { progress.update(done); });
     report.part("check", report_of(cells));
-    mark_runs(cells, r, drawn);
-    if (arguments.picture) plot::write_picture(*arguments.picture, drawn);
+    if (arguments.picture) {
+      plot::Figure drawn = figure(scene, r);
+      mark_runs(cells, r, drawn);
+      plot::write_picture(*arguments.picture, drawn);
+    }
   }
   tell(report, console);
 }

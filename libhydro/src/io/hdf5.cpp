@@ -4,7 +4,14 @@
 #include <hdf5_hl.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <numeric>
 #include <utility>
 
 #include "hydro/base/error.hpp"
@@ -40,6 +47,10 @@ void silence() {
 }
 
 std::string joined(const std::vector<std::size_t>& shape) { return fmt::format("({})", fmt::join(shape, ", ")); }
+
+std::size_t values_in(const std::vector<std::size_t>& shape) {
+  return std::accumulate(shape.begin(), shape.end(), std::size_t{1}, std::multiplies<>());
+}
 
 }  // namespace
 
@@ -202,6 +213,35 @@ double Hdf5Reader::number_attribute(const std::string& object, const std::string
   return value;
 }
 
+namespace {
+
+/// True if deflating these values pays: dense numbers, whose digits are as good as noise, lose an eighth, in 30 ms a
+/// MB.
+///
+/// Bits a byte of a Huffman code (Shannon's entropy), mean over the eight places of a byte in a number, which shuffling
+/// puts side by side; of stretches of neighbours, so that real and imaginary parts both count.
+bool packs_well(std::span<const double> values) {
+  constexpr std::size_t stretches = 8, each = 256, places = sizeof(double);
+  constexpr double pays =
+      6;  // bits of 8: what has more keeps over 0.73 of its size in results of the examples, noise 0.88
+  std::array<std::array<std::uint32_t, 256>, places> count{};
+  std::size_t taken = 0;
+  const std::size_t apart = std::max(values.size() / stretches, each);
+  for (std::size_t first = 0; first < values.size(); first += apart)
+    for (const double value : values.subspan(first, std::min(each, values.size() - first))) {
+      const auto bytes = std::bit_cast<std::array<std::uint8_t, places>>(value);
+      for (std::size_t place = 0; place < places; ++place) ++count[place][bytes[place]];
+      ++taken;
+    }
+  double bits = 0;
+  for (const auto& of_place : count)
+    for (const std::uint32_t n : of_place)
+      if (n > 0) bits += n * std::log2(static_cast<double>(taken) / n);
+  return bits <= pays * static_cast<double>(places * taken);
+}
+
+}  // namespace
+
 struct Hdf5Writer::Impl {
   Handle file;
   Packing packing = Packing::deflate;
@@ -211,7 +251,7 @@ struct Hdf5Writer::Impl {
     if (id < 0) throw std::runtime_error(std::string("HDF5 could not ") + doing);
     return id;
   }
-  Handle create(const std::string& name, hid_t type, const std::vector<std::size_t>& shape) {
+  Handle create(const std::string& name, hid_t type, const std::vector<std::size_t>& shape, bool packed = false) {
     const std::vector<hsize_t> extent(shape.begin(), shape.end());
     const Handle space(check(extent.empty() ? H5Screate(H5S_SCALAR)
                                             : H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr),
@@ -221,12 +261,10 @@ struct Hdf5Writer::Impl {
     // netCDF-4 requires the order of creation to be tracked on groups and their attributes.
     const Handle creation(H5Pcreate(H5P_DATASET_CREATE));
     H5Pset_attr_creation_order(creation.get(), H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED);
-    std::size_t count = 1;
-    for (const std::size_t n : shape) count *= n;
-    constexpr std::size_t worth_compressing = 4096, chunk_values = 65536;
-    if (packing == Packing::deflate && count > worth_compressing) {
+    if (packed) {
+      constexpr std::size_t chunk_values = 65536;
       std::vector<hsize_t> chunk(extent);
-      for (std::size_t size = count; size > chunk_values; size = (size + 1) / 2) {
+      for (std::size_t size = values_in(shape); size > chunk_values; size = (size + 1) / 2) {
         hsize_t& longest = *std::max_element(chunk.begin(), chunk.end());
         longest = (longest + 1) / 2;
       }
@@ -264,11 +302,11 @@ Hdf5Writer::Hdf5Writer(Packing packing) : impl_(std::make_unique<Impl>()) {
 Hdf5Writer::~Hdf5Writer() = default;
 
 void Hdf5Writer::write(const std::string& dataset, std::span<const double> values, std::vector<std::size_t> shape) {
-  const Handle d = impl_->create(dataset, H5T_IEEE_F64LE, shape);
-  std::size_t count = 1;
-  for (const std::size_t n : shape) count *= n;
-  ensure(count == values.size(), "Hdf5Writer::write: shape and values disagree");
-  if (count > 0)
+  constexpr std::size_t worth_compressing = 4096;
+  ensure(values_in(shape) == values.size(), "Hdf5Writer::write: shape and values disagree");
+  const bool packed = impl_->packing == Packing::deflate && values.size() > worth_compressing && packs_well(values);
+  const Handle d = impl_->create(dataset, H5T_IEEE_F64LE, shape, packed);
+  if (!values.empty())
     Impl::check(H5Dwrite(d.get(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), "write numbers");
 }
 
@@ -326,10 +364,11 @@ void Hdf5Writer::save(const std::filesystem::path& path) {
   H5Fflush(impl_->file.get(), H5F_SCOPE_GLOBAL);
   const ssize_t size = H5Fget_file_image(impl_->file.get(), nullptr, 0);
   if (size < 0) Impl::check(-1, "measure the file in memory");
-  std::vector<std::byte> image(static_cast<std::size_t>(size));
-  if (H5Fget_file_image(impl_->file.get(), image.data(), image.size()) < 0) Impl::check(-1, "copy the file in memory");
+  const auto bytes = static_cast<std::size_t>(size);
+  const auto image = std::make_unique_for_overwrite<std::byte[]>(bytes);
+  if (H5Fget_file_image(impl_->file.get(), image.get(), bytes) < 0) Impl::check(-1, "copy the file in memory");
   impl_->file = Handle();
-  write_atomically(path, image);
+  write_atomically(path, std::span(image.get(), bytes));
 }
 
 }  // namespace hydro::io

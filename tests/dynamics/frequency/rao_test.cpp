@@ -1,4 +1,5 @@
 #include "dynamics/frequency/amplitudes.hpp"
+#include "dynamics/frequency/signal_amplitudes.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,6 +10,7 @@
 #include "dynamics/force/connector.hpp"
 #include "dynamics/force/restoring.hpp"
 #include "hydro/base/error.hpp"
+#include "hydro/base/random.hpp"
 #include "hydro/waves/dispersion.hpp"
 #include "support/two_pole_body.hpp"
 
@@ -333,6 +335,40 @@ TEST(Rao, SaysWhenAnUndampedResonanceIsHit) {
   EXPECT_THAT([&] { frequency::response_amplitudes(model, {g}, {1.0}, 0); },
               testing::ThrowsMessage<hydro::NumericsError>(testing::AllOf(
                   testing::HasSubstr("at 1 rad/s"), testing::HasSubstr("resonates, and nothing damps"))));
+}
+
+// One cell after the other is the reference: rows of every kind, of two bodies, a multiplier and a wave.
+TEST(SignalAmplitudes, AreThoseOfOneCellAfterTheOtherToTheBit) {
+  const std::vector<double> omega{0.7, 1.3, 2.2}, headings{0.0, 0.4};
+  frequency::Amplitudes found;
+  const hydro::RandomStream random(1, 0);
+  std::uint64_t drawn = 0;
+  for (auto* part : {&found.xi, &found.lambda})
+    for (std::size_t h = 0; h < headings.size(); ++h) {
+      Eigen::MatrixXcd& one = part->emplace_back(part == &found.xi ? 12 : 2, 3);
+      for (auto& value : one.reshaped()) {
+        value = {random.normal(drawn), random.normal(drawn + 1)};
+        drawn += 2;
+      }
+    }
+  Variation moves{.parts = {{.body = 0}, {.body = 1}}}, all = moves;
+  moves.parts[1].by_motion << 0, 0, 1, 0, -3.7, 0;
+  all.parts[0].by_motion << 1, 0, 0, 0, 2.5, 0;
+  all.parts[0].by_velocity << 0, 0.3, 0, 0, 0, 0;
+  all.parts[1].by_acceleration << 0, 0, 7, 0, 0, 1;
+  all.by_multiplier = {{1, 0.6}};
+  all.by_wave = [](double w, double beta) { return std::polar(1.0, -w * w * std::cos(beta)); };
+  const frequency::SignalAmplitudes amplitudes(found, omega, headings);
+  for (const Variation& variation : {moves, all}) {
+    const std::vector<std::complex<double>> at_once = amplitudes.of(variation);
+    ASSERT_EQ(at_once.size(), omega.size() * headings.size());
+    for (std::size_t h = 0; h < headings.size(); ++h)
+      for (std::size_t w = 0; w < omega.size(); ++w) {
+        const auto column = static_cast<Eigen::Index>(w);
+        EXPECT_EQ(at_once[h * omega.size() + w],
+                  amplitude(variation, found.xi[h].col(column), found.lambda[h].col(column), omega[w], headings[h]));
+      }
+  }
 }
 
 // (D142): the column of Z⁻¹ inside the data; K⁻¹ at rest; below the data A constant, or straight to A(0), and B

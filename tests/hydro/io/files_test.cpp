@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "hydro/base/error.hpp"
+#include "hydro/base/random.hpp"
 #include "hydro/io/atomic_file.hpp"
 #include "hydro/io/hdf5.hpp"
 #include "support/scratch.hpp"
@@ -140,6 +141,29 @@ TEST_F(Files, OfHdf5ComeBackToTheLastBit) {
   EXPECT_FALSE(read.has("/group/shallow/table"));
   EXPECT_TRUE(read.is_text("/words"));
   EXPECT_THAT(read.children("/group"), testing::ElementsAre("deep"));
+}
+
+// Digits like noise stand as they are, and take no time to pack; constants, also as real and imaginary parts, and what
+// is nothing most of the time, take next to no room.
+TEST_F(Files, OfHdf5ArePackedWhereThatPays) {
+  constexpr std::size_t count = 20000, bytes = count * sizeof(double);
+  const hydro::RandomStream random(1, 0);
+  std::vector<double> noise, parts, seldom(count, 0.0);
+  for (std::size_t i = 0; i < count; ++i) {
+    noise.push_back(random.normal(i));
+    parts.push_back(i % 2 == 0 ? 1.0 : 0.0);
+    if (i % 50 == 0) seldom[i] = noise.back();
+  }
+  const auto size_of = [&](const std::vector<double>& values) {
+    Hdf5Writer file;
+    file.write("/x", values, {values.size() / 2, 2});
+    file.save(folder / "a.h5");
+    EXPECT_EQ(Hdf5Reader(folder / "a.h5").numbers("/x").values, values);
+    return fs::file_size(folder / "a.h5");
+  };
+  EXPECT_GE(size_of(noise), bytes);
+  EXPECT_LT(size_of(parts), bytes / 10);   // a file of its own has some 5 kB
+  EXPECT_LT(size_of(seldom), bytes / 10);  // a 50th of the numbers, and where they are
 }
 
 TEST_F(Files, OfHdf5SayWhatIsMissingOrCut) {

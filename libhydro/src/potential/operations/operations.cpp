@@ -12,9 +12,9 @@
 namespace hydro::potential {
 namespace {
 
-/// Phase of a wave's way to (x, y): e^{−ik(x cos β + y sin β)}.
-std::complex<double> way(const Water& water, double omega, double heading, double x, double y) {
-  return std::polar(1.0, -waves::wavenumber(omega, water) * (x * std::cos(heading) + y * std::sin(heading)));
+/// Phase of the way to (x, y) of a wave of this wavenumber, 1/m: e^{−ik(x cos β + y sin β)}.
+std::complex<double> way(double k, double heading, double x, double y) {
+  return std::polar(1.0, -k * (x * std::cos(heading) + y * std::sin(heading)));
 }
 
 }  // namespace
@@ -64,9 +64,11 @@ Coefficients about(Coefficients c, std::span<const Eigen::Vector3d> from, std::s
 }
 
 Coefficients translated(Coefficients c, const Eigen::Vector2d& shift) {
-  for (std::size_t h = 0; h < c.heading.size(); ++h)
-    for (std::size_t w = 0; w < c.omega.size(); ++w)
-      c.X[h].col(static_cast<Eigen::Index>(w)) *= way(c.water, c.omega[w], c.heading[h], shift.x(), shift.y());
+  for (std::size_t w = 0; w < c.omega.size(); ++w) {
+    const double k = waves::wavenumber(c.omega[w], c.water);
+    for (std::size_t h = 0; h < c.heading.size(); ++h)
+      c.X[h].col(static_cast<Eigen::Index>(w)) *= way(k, c.heading[h], shift.x(), shift.y());
+  }
   const Eigen::Vector3d d(shift.x(), shift.y(), 0);
   for (auto& b : c.body) {
     if (b.reference_point) *b.reference_point += d;
@@ -82,11 +84,13 @@ FrequencyTable::FrequencyTable(Coefficients c, std::vector<Eigen::Vector3d> orig
   require(origin_.size() == c_.body.size(), "{}: {} places are given for {} bodies", c_.source, origin_.size(),
           c_.bodies());
   X_ = c_.X;
-  for (std::size_t h = 0; h < X_.size(); ++h)
-    for (std::size_t w = 0; w < c_.omega.size(); ++w)
+  for (std::size_t w = 0; w < c_.omega.size(); ++w) {
+    const double k = waves::wavenumber(c_.omega[w], c_.water);
+    for (std::size_t h = 0; h < X_.size(); ++h)
       for (std::size_t b = 0; b < origin_.size(); ++b)
         X_[h].col(static_cast<Eigen::Index>(w)).segment<6>(6 * static_cast<Eigen::Index>(b)) *=
-            std::conj(way(c_.water, c_.omega[w], c_.heading[h], origin_[b].x(), origin_[b].y()));
+            std::conj(way(k, c_.heading[h], origin_[b].x(), origin_[b].y()));
+  }
 }
 
 namespace {
@@ -147,8 +151,9 @@ Eigen::VectorXcd FrequencyTable::excitation(double omega, double heading) const 
     return Eigen::VectorXcd(
         combined(by_omega, c_.omega.size(), [&](std::size_t w) { return X_[h].col(static_cast<Eigen::Index>(w)); }));
   });
+  const double k = waves::wavenumber(omega, c_.water);
   for (std::size_t b = 0; b < origin_.size(); ++b)
-    X.segment<6>(6 * static_cast<Eigen::Index>(b)) *= way(c_.water, omega, heading, origin_[b].x(), origin_[b].y());
+    X.segment<6>(6 * static_cast<Eigen::Index>(b)) *= way(k, heading, origin_[b].x(), origin_[b].y());
   return X;
 }
 
