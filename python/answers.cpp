@@ -268,6 +268,7 @@ void add_answers(py::module_& m) {
   add_fit(m);
   const py::arg scene("scene"), progress("progress");
   m.def("rao", asking("rao", &Scene::rao), scene, progress, "froude.rao");
+  m.def("field", asking("field", &Scene::field), scene, progress, "froude.field");
   m.def("modes", asking("modes", &Scene::modes), scene, progress, "froude.modes");
   m.def("plan", asking("plan", &Scene::plan), scene, progress, "froude.plan");
   m.def(

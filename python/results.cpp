@@ -13,6 +13,7 @@ std::vector<std::size_t> shape_of(const Responses& r) {
   if (r.heading.size() == 1) return {r.omega.size()};
   return {r.heading.size(), r.omega.size()};
 }
+std::vector<std::size_t> shape_of(const FreeSurface& surface) { return {surface.y.size(), surface.x.size()}; }
 
 template <class Result>
 std::vector<std::string> names_of(const Result& result) {
@@ -117,6 +118,23 @@ void add_rao(py::module_& m) {
   add_dataset(type, "of_rao", "xarray.Dataset along `heading` and `omega`, complex; `units` and `long_name` of each.");
 }
 
+void add_field(py::module_& m) {
+  py::class_<FreeSurface> type(
+      m, "FreeSurface",
+      "The free surface about bodies in one regular wave, per metre of wave amplitude, complex.\n\n"
+      "field[\"elevation\"] is the sum of \"incident\", \"scattered\" and \"radiated\", shape (y, x); NaN in bodies "
+      "and "
+      "where nothing is told. Phases are against the crest at the global origin, e^{+i omega t}.");
+  add_signals(type);
+  type.def_property_readonly("x", view_of(&FreeSurface::x), "Of the grid, global, m, shape (x,).")
+      .def_property_readonly("y", view_of(&FreeSurface::y), "Of the grid, global, m, shape (y,).")
+      .def_readonly("omega", &FreeSurface::omega, "Frequency of the wave, rad/s.")
+      .def_readonly("heading", &FreeSurface::heading, "Where the wave goes, rad, from +x towards +y.")
+      .def_readonly("held", &FreeSurface::held, "True if the bodies are held still.")
+      .def_readonly("estimate", &FreeSurface::estimate, "Estimated error of the elevation, over its largest.");
+  add_dataset(type, "of_field", "xarray.Dataset along `y` and `x`, complex; `units` and `long_name` of each.");
+}
+
 void add_water(py::module_& m) {
   py::class_<WaterSeries> type(m, "Water",
                                "What the water does at the probes of a scene. water[\"probe.elevation\"] is a numpy "
@@ -173,6 +191,7 @@ void add_modes(py::module_& m) {
 void add_results(py::module_& m) {
   add_run(m);
   add_rao(m);
+  add_field(m);
   add_water(m);
   add_modes(m);
 }

@@ -22,6 +22,10 @@ Modes free_modes(const scene::Scene& scene, const std::shared_ptr<compile::Kept>
 StabilityMap stability(const scene::Scene& scene, const std::function<void(double)>& done = {},
                        const std::shared_ptr<compile::Kept>& kept = nullptr);
 
+/// The free surface of a scene that asks for it. \throws hydro::InputError where what makes waves has no shape that is
+/// known here, and where the estimate misses the accuracy asked; hydro::NumericsError
+FreeSurface free_surface(const scene::Scene& scene, const std::shared_ptr<compile::Kept>& kept = nullptr);
+
 /// "m1.surge 1, m2.surge 0.81": the motions that matter in a shape.
 std::string largest_motions(const std::vector<std::string>& motions, std::span<const double> shape);
 

@@ -177,6 +177,43 @@ class TowingFits final : public FitKindOf<TowingModel, ::fit::towing::Problem> {
                        {interval.high, interval.high}}}};
   }
 
+  /// C_D of single samples of each run over its speed: a box from quartile to quartile with the median across it,
+  /// whiskers, and outliers as marks. Boxes have the width of a third of the least distance of two speeds.
+  static plot::Panel boxes(const std::vector<::fit::towing::RecordedTow>& records) {
+    std::vector<double> speeds;
+    for (const auto& r : records) speeds.push_back(r.speed.value);
+    std::sort(speeds.begin(), speeds.end());
+    double least = speeds.back() - speeds.front();
+    for (std::size_t i = 1; i < speeds.size(); ++i)
+      if (speeds[i] - speeds[i - 1] > 0.01 * speeds[i]) least = std::min(least, speeds[i] - speeds[i - 1]);
+    const double half = least / 6, none = std::numeric_limits<double>::quiet_NaN();
+    plot::Series box{.name = "quartiles, whiskers", .x = {}, .y = {}}, median{.name = "median", .x = {}, .y = {}},
+        outliers{.name = "outliers", .x = {}, .y = {}, .line = false, .marks = true};
+    for (const auto& r : records) {
+      const double u = r.speed.value, a = u - half, b = u + half;
+      const ::fit::Box& of = r.box;
+      for (const auto& [x, y] : {std::pair{a, of.lower_quartile},
+                                 {b, of.lower_quartile},
+                                 {b, of.upper_quartile},
+                                 {a, of.upper_quartile},
+                                 {a, of.lower_quartile},
+                                 {none, none},
+                                 {u, of.lower_quartile},
+                                 {u, of.low},
+                                 {none, none},
+                                 {u, of.upper_quartile},
+                                 {u, of.high},
+                                 {none, none}})
+        box.x.push_back(x), box.y.push_back(y);
+      for (const auto& [x, y] : {std::pair{a, of.median}, {b, of.median}, {none, none}})
+        median.x.push_back(x), median.y.push_back(y);
+      for (const double value : of.outliers) outliers.x.push_back(u), outliers.y.push_back(value);
+    }
+    return {.x = {"speed", "m/s"},
+            .y = {"C_D of single samples"},
+            .series = {std::move(box), std::move(median), std::move(outliers)}};
+  }
+
   /// Speed and force of each record, thin enough to draw, with the steady parts dashed over them, and C_D of all runs.
   static Panels panels_of_records(const ::fit::towing::Problem& problem, const Solution& solution) {
     plot::Panel speed{.x = {"time", "s"}, .y = {"speed", "m/s"}, .series = {}},
@@ -203,6 +240,7 @@ class TowingFits final : public FitKindOf<TowingModel, ::fit::towing::Problem> {
     force.series.push_back(std::move(steady_force));
     Panels out{std::move(speed), std::move(force)};
     if (solution.records.size() == 1) return out;
+    out.push_back(boxes(solution.records));
     auto runs = with_bars("runs", problem.options.confidence, speeds, cds);
     if (const auto& law = solution.law)
       out.push_back(over_speed(std::move(runs), law->coefficients[0], law->intervals[0], problem.options.confidence));
@@ -216,7 +254,7 @@ class TowingFits final : public FitKindOf<TowingModel, ::fit::towing::Problem> {
     std::string out =
         "file,from [s],to [s],re,speed [m/s],speed_deviation [m/s],speed_cov,force [N],force_deviation "
         "[N],force_cov,cd,"
-        "cd_deviation,cd_cov,cd_standard_error,cd_low,cd_high\n";
+        "cd_deviation,cd_cov,cd_lower_quartile,cd_median,cd_upper_quartile,cd_standard_error,cd_low,cd_high\n";
     for (std::size_t i = 0; i < solution.records.size(); ++i) {
       const auto& r = solution.records[i];
       const auto& time = r.prepared.time;
@@ -225,8 +263,9 @@ class TowingFits final : public FitKindOf<TowingModel, ::fit::towing::Problem> {
       for (const ::fit::SteadyMean* m : {&r.speed, &r.force})
         out += fmt::format(",{:.6g},{:.6g},{:.6g}", m->value, m->deviation, m->coefficient_of_variation());
       out +=
-          fmt::format(",{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g}\n", *r.cd.value, r.samples.deviation,
-                      r.samples.coefficient_of_variation(), r.cd.standard_error, r.cd.interval.low, r.cd.interval.high);
+          fmt::format(",{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g}", *r.cd.value, r.samples.deviation,
+                      r.samples.coefficient_of_variation(), r.box.lower_quartile, r.box.median, r.box.upper_quartile);
+      out += fmt::format(",{:.6g},{:.6g},{:.6g}\n", r.cd.standard_error, r.cd.interval.low, r.cd.interval.high);
     }
     return out;
   }

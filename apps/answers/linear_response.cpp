@@ -259,6 +259,23 @@ Responses respond(const scene::Scene& scene, const compile::Prepared& prepared, 
   return out;
 }
 
+Eigen::VectorXcd motions_in_wave(const scene::Scene& scene, const compile::Prepared& prepared, double omega,
+                                 double heading, const scene::Place& place, std::vector<std::string>& notes) {
+  scene::Scene one = scene;
+  if (!one.rao) one.rao.emplace();
+  one.rao->omega = {omega};
+  one.rao->headings = {heading};
+  one.rao->headings_place = one.rao->place = place;
+  compile::check_waves_of_rao(one, prepared, notes);
+  const dynamics::Model model = compile::frequency_model(prepared, one.rao->about);
+  const SmallMotions about = compile::small_motions(one, model, one.rao->about, notes);
+  for (const std::string& effect : left_out_of_linear_responses(one, prepared, one.rao->drag.has_value()))
+    notes.push_back(effect);
+  const dynamics::frequency::RaoOptions options{.threads = 1,
+                                                .drag = drag_of_rao(one, prepared, about, one.rao->omega, notes)};
+  return response_amplitudes(about, prepared.groups, one.rao->omega, one.rao->headings, options).xi.front().col(0);
+}
+
 Responses over_wave_slope(Responses responses, const hydro::Water& water) {
   std::vector<double> k;
   for (const double omega : responses.omega) k.push_back(hydro::waves::wavenumber(omega, water));

@@ -45,6 +45,11 @@ Responses respond(const scene::Scene& scene);
 /// Of what is prepared already, for the frequencies and signals of the scene.
 Responses respond(const scene::Scene& scene, const compile::Prepared& prepared, const HowToRespond& how = {});
 
+/// Displacements of all bodies about their centres of gravity in one wave, (6N), m/m and rad/m, as respond() has them:
+/// with the drag and about the rest of [ask.rao], where there is one. \throws hydro::InputError, hydro::NumericsError
+Eigen::VectorXcd motions_in_wave(const scene::Scene& scene, const compile::Prepared& prepared, double omega,
+                                 double heading, const scene::Place& place, std::vector<std::string>& notes);
+
 /// Without dimension: rotations over the slope kζ of the wave, translations over its amplitude ζ, as they are; loads
 /// stay per metre of amplitude.
 Responses over_wave_slope(Responses responses, const hydro::Water& water);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "compile/control.hpp"
 #include "compile/cylinders.hpp"
@@ -108,6 +109,20 @@ Section plan_modes(const compile::Prepared& p) {
           {}};
 }
 
+Section plan_field(const scene::Scene& scene) {
+  const scene::AskField& asked = *scene.field;
+  const std::size_t cylinders = compile::bodies_of_cylinders(scene).size(),
+                    meshes = compile::bodies_of_meshes(scene).size();
+  const std::string bodies = fmt::format("{} bod{}", cylinders + meshes, cylinders + meshes == 1 ? "y" : "ies");
+  return {
+      fmt::format("free surface: {} x {} points, a wave of {:.4g} s", asked.x.size(), asked.y.size(),
+                  2 * std::numbers::pi / asked.omega),
+      {{"scattered waves", meshes > 0 ? "panels, and again with each cut in four" : "partial waves of each cylinder",
+        bodies, true},
+       {"radiated waves", asked.held ? "not named in the scene (bodies are held)" : "of the motion that responses have",
+        asked.held ? "" : bodies, !asked.held}}};
+}
+
 std::string integrator_text(const scene::Solve& solve) {
   if (solve.integrator == "explicit_pair")
     return fmt::format("explicit pair of orders 5 and 4, tolerance {:.3g}",
@@ -207,6 +222,7 @@ Plan plan(const scene::Scene& scene, const std::shared_ptr<compile::Kept>& kept)
   out.notes = prepared.notes;
   if (scene.rao) out.sections.push_back(plan_rao(scene, prepared, out.notes));
   if (scene.ask_modes) out.sections.push_back(plan_modes(prepared));
+  if (scene.field) out.sections.push_back(plan_field(scene));
   if (scene.run) out.sections.push_back(plan_run(scene, prepared, out.notes));
   if (scene.ask_waves) out.sections.push_back(plan_waves(scene));
   out.sections.push_back({"this machine:", {{"inner loops", hydro::instructions_of_loops(), {}}}});

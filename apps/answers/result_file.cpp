@@ -19,6 +19,10 @@ using hydro::io::Hdf5Writer;
 constexpr const char* run_kind = "froude run";
 constexpr const char* rao_kind = "froude rao";
 constexpr const char* modes_kind = "froude modes";
+constexpr const char* meaning_of_heading = "direction the wave propagates towards, from +x towards +y";
+constexpr const char* phase_of_amplitudes =
+    "Re(amplitude exp(+i omega t)), of a wave with its crest at the origin at t = 0";
+constexpr const char* field_kind = "froude field";
 constexpr const char* stability_kind = "froude stability";
 
 void describe(Hdf5Writer& file, const std::string& dataset, const std::string& units, const std::string& long_name) {
@@ -94,20 +98,19 @@ void write_run(const std::filesystem::path& path, const std::vector<double>& tim
 
 void write_rao(const std::filesystem::path& path, const std::vector<double>& omega, const std::vector<double>& heading,
                const std::vector<ComplexSignal>& signals, const Provenance& provenance, const ErrorEstimate& error) {
-  constexpr const char* meaning = "direction the wave propagates towards, from +x towards +y";
   const bool several = heading.size() != 1;
   Hdf5Writer file(provenance.packing);
   write_provenance(file, rao_kind, provenance);
-  file.attribute("/", "phase", "Re(amplitude exp(+i omega t)), of a wave with its crest at the origin at t = 0");
+  file.attribute("/", "phase", phase_of_amplitudes);
   write_dimension(file, "/omega", omega, "rad/s", "angular frequency");
   const std::array<std::string, 2> parts{"re", "im"};
   file.write_texts("/complex", parts);
   file.make_dimension("/complex");
   if (several) {
-    write_dimension(file, "/heading", heading, "rad", meaning);
+    write_dimension(file, "/heading", heading, "rad", meaning_of_heading);
   } else {
     file.write_scalar("/heading", heading.front());
-    describe(file, "/heading", "rad", meaning);
+    describe(file, "/heading", "rad", meaning_of_heading);
   }
   std::vector<std::string> dimensions{"/omega", "/complex"};
   std::vector<std::size_t> shape{omega.size(), parts.size()};
@@ -246,6 +249,35 @@ void StabilityMap::write(const std::filesystem::path& path) const {
   describe(file, "/mathieu", "m", "height from which one motion grows, by Hill's equation of that motion");
   for (const Signal& s : signals) cell_by_cell(root_path(s.name), s.values, s.units, s.long_name);
   for (std::size_t i = 0; i < branches.size(); ++i) write_branch(file, fmt::format("/branch{}", i + 1), branches[i]);
+  file.save(path);
+}
+
+void FreeSurface::write(const std::filesystem::path& path) const {
+  Hdf5Writer file(provenance.packing);
+  Provenance with_notes = provenance;
+  add_notes(notes, with_notes);
+  write_provenance(file, field_kind, with_notes);
+  file.attribute("/", "phase", phase_of_amplitudes);
+  file.attribute("/", "bodies", held ? "held still" : "free");
+  file.attribute("/", "error", estimate);
+  write_dimension(file, "/y", y, "m", "of the grid, global");
+  write_dimension(file, "/x", x, "m", "of the grid, global");
+  file.write_texts("/complex", std::array<std::string, 2>{"re", "im"});
+  file.make_dimension("/complex");
+  file.write_scalar("/omega", omega);
+  describe(file, "/omega", "rad/s", "angular frequency of the wave");
+  file.write_scalar("/heading", heading);
+  describe(file, "/heading", "rad", meaning_of_heading);
+  for (const ComplexSignal& part : signals) {
+    const std::string dataset = root_path(part.name);
+    std::vector<double> flat;
+    for (const auto& value : part.values) flat.insert(flat.end(), {value.real(), value.imag()});
+    file.write(dataset, flat, {y.size(), x.size(), 2});
+    file.attach_dimension(dataset, 0, "/y");
+    file.attach_dimension(dataset, 1, "/x");
+    file.attach_dimension(dataset, 2, "/complex");
+    describe(file, dataset, part.units, part.long_name);
+  }
   file.save(path);
 }
 

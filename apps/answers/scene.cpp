@@ -92,6 +92,12 @@ Responses Scene::rao() const {
   return respond(read(), compile::prepare(read(), shared_->motion().kept));
 }
 
+FreeSurface Scene::field() const {
+  require_asked(read().field, read(), "the free surface",
+                "field = { period = \"4 s\", x = \"-30 m .. 30 m, 61 values\", y = \"-30 m .. 30 m, 61 values\" }");
+  return free_surface(read(), shared_->motion().kept);
+}
+
 Modes Scene::modes() const {
   require_asked(read().ask_modes, read(), "modes", "modes = { longest = \"60 s\" }");
   return free_modes(read(), shared_->motion().kept);

@@ -7,6 +7,7 @@ namespace froude::compile {
 std::vector<double> headings_asked(const scene::Scene& scene) {
   std::vector<double> headings;
   if (scene.rao) headings = scene.rao->headings;
+  if (scene.field) headings.push_back(scene.field->heading);
   if (scene.waves) headings.push_back(scene.waves->heading.radians());
   if (scene.waves)
     if (const auto* sea = std::get_if<scene::RandomSea>(&scene.waves->kind))

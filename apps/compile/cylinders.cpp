@@ -76,6 +76,13 @@ hydro::potential::Coefficients coefficients_of_cylinders(const Scene& scene, con
   return kept ? std::move(*kept) : solve_cylinders(scene, bodies).coefficients;
 }
 
+hydro::potential::WaveField field_of_cylinders(const Scene& scene, const std::vector<int>& bodies,
+                                               const hydro::potential::FieldQuestion& question) {
+  const Request r = request(scene, bodies);
+  return scene::placed(r.place,
+                       [&] { return hydro::cylinders::wave_field(r.layout, scene.water, question, r.options); });
+}
+
 std::string what_is_solved(const Scene& scene, const std::vector<int>& bodies) {
   const Request r = request(scene, bodies);
   std::string out =

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "hydro/cylinders/field.hpp"
 #include "hydro/cylinders/solve.hpp"
 #include "scene/scene.hpp"
 
@@ -22,6 +23,11 @@ hydro::cylinders::Solution solve_cylinders(const scene::Scene& scene, const std:
 
 /// The same without what checks them, and not solved again where an earlier start of the program has kept them.
 hydro::potential::Coefficients coefficients_of_cylinders(const scene::Scene& scene, const std::vector<int>& bodies);
+
+/// The surface about all these bodies, `question` being about their origins. \throws hydro::InputError as
+/// solve_cylinders()
+hydro::potential::WaveField field_of_cylinders(const scene::Scene& scene, const std::vector<int>& bodies,
+                                               const hydro::potential::FieldQuestion& question);
 
 /// All that the answer of solve_cylinders() depends on, as one text: equal texts, equal answers.
 std::string what_is_solved(const scene::Scene& scene, const std::vector<int>& bodies);

@@ -15,6 +15,7 @@
 #include "compile/kept_files.hpp"
 #include "fit_sources.hpp"
 #include "hydro/potential/operations/operations.hpp"
+#include "hydro/waves/dispersion.hpp"
 #include "scene/placed.hpp"
 
 namespace froude::compile {
@@ -148,6 +149,21 @@ void watch_hulls(std::function<void(int, int)> watcher) {
 
 hp::Solution solve_hulls(const Scene& scene, const std::vector<int>& bodies) {
   return solved_and_kept(hull_request(scene, bodies), scene.water);
+}
+
+// About the middle of the bodies the wave has another phase: motions are per metre of a wave with its crest there.
+hydro::potential::WaveField field_of_hulls(const Scene& scene, const std::vector<int>& bodies,
+                                           const hydro::potential::FieldQuestion& question) {
+  const HullRequest r = hull_request(scene, bodies);
+  const std::complex<double> phase = hydro::potential::incident_elevation(
+      r.from_origin.transpose(), hydro::waves::wavenumber(question.omega, scene.water), question.heading)(0);
+  hydro::potential::FieldQuestion there = question;
+  there.point.rowwise() -= r.from_origin.transpose();
+  there.motion /= phase;
+  hydro::potential::WaveField field =
+      scene::placed(r.place, [&] { return hp::wave_field(r.bodies, scene.water, there, r.options); });
+  for (Eigen::VectorXcd* part : {&field.incident, &field.scattered, &field.radiated}) *part *= phase;
+  return field;
 }
 
 Coefficients coefficients_of_hulls(const Scene& scene, const std::vector<int>& bodies) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "hydro/panels/field.hpp"
 #include "hydro/panels/solve.hpp"
 #include "scene/scene.hpp"
 
@@ -23,6 +24,10 @@ void watch_hulls(std::function<void(int done, int all)> watcher);
 /// asks for. The answer is kept in the folder of this process, fit_folder().
 /// \throws hydro::InputError, placed in the scene, if bodies state different ones, or what hydro::panels refuses
 hydro::panels::Solution solve_hulls(const scene::Scene& scene, const std::vector<int>& bodies);
+
+/// The surface about all these bodies, `question` being about their origins. \throws hydro::InputError as solve_hulls()
+hydro::potential::WaveField field_of_hulls(const scene::Scene& scene, const std::vector<int>& bodies,
+                                           const hydro::potential::FieldQuestion& question);
 
 /// The coefficients of solve_hulls(): those that an earlier process kept where it did, which a note then says.
 hydro::potential::Coefficients coefficients_of_hulls(const scene::Scene& scene, const std::vector<int>& bodies);

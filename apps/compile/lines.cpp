@@ -11,6 +11,7 @@
 #include "compile/connections.hpp"
 #include "compile/restart.hpp"
 #include "compile/waves.hpp"
+#include "dynamics/force/field_at_one_place.hpp"
 #include "dynamics/line/equilibrium.hpp"
 #include "dynamics/line/exposure.hpp"
 #include "dynamics/line/path.hpp"
@@ -120,9 +121,21 @@ void append(const dl::Description& more, bool first, bool rests, dl::Description
   if (!more.bed.empty()) d.bed = more.bed;
 }
 
+/// The field as a network takes it: lines that meet take it at one place, or none of them does.
+std::shared_ptr<const hydro::waves::WaveField> taken_by(const Scene& scene, const std::vector<std::size_t>& network,
+                                                        std::shared_ptr<const hydro::waves::WaveField> field) {
+  const auto& one = scene.lines[network.front()].waves_at;
+  if (!one || !field) return field;
+  if (one->place_m.z() < -scene.water.depth.metres())
+    throw InputError(fmt::format("waves are taken at z = {:.4g} m, below the bed", one->place_m.z()), one->place,
+                     fmt::format("take them at z = {:.4g} m or above", -scene.water.depth.metres()));
+  return std::make_shared<const dynamics::FieldAtOnePlace>(std::move(field), one->place_m);
+}
+
 System description(const Scene& scene, const std::vector<std::size_t>& network,
-                   std::shared_ptr<const hydro::waves::WaveField> field) {
+                   const std::shared_ptr<const hydro::waves::WaveField>& of_lines) {
   System out;
+  const auto field = taken_by(scene, network, of_lines);
   std::vector<int> first(scene.lines.size(), 0);
   out.d.gravity = scene.water.gravity;
   for (const std::size_t i : network) {
@@ -473,6 +486,7 @@ std::optional<hydro::waves::FieldUse> water_of_lines(const Scene& scene, const P
     try {
       const dl::Places rest = known != nullptr ? *known : at_rest(scene, network).position;
       for (Eigen::Index i = 0; i < rest.cols(); ++i) places.extend(Eigen::Vector3d(rest.col(i)));
+      if (const auto& one = scene.lines[network.front()].waves_at) places.extend(one->place_m);
       const int asked = known != nullptr || foreseen ? 2 : 6;  // an instant: by stages, and by the balance
       points += asked * runs * static_cast<double>(rest.cols());
     } catch (const InputError& e) {

@@ -236,6 +236,7 @@ struct RaoArguments : SceneArguments {
 };
 void rao(const RaoArguments& arguments, const Console& console);
 void modes(const SceneArguments& arguments, const Console& console);
+void field(const SceneArguments& arguments, const Console& console);
 struct StabilityArguments : SceneArguments {
   std::string check = {};        ///< "time": some cells by runs; empty: none
   int check_cells = 6;           ///< spread over the map

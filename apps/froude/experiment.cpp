@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "answers/picture.hpp"
+#include "froude/outputs.hpp"
 #include "froude/report.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/waves/dispersion.hpp"
@@ -81,27 +83,72 @@ void tell_leading_load(double cd, double kc, double inertia, const char* symbol,
           fact("expected_cd", cd), symbol, fact("expected_inertia", inertia), leads);
 }
 
-/// What the water does at the axis of a cylinder across the waves, by linear theory.
-void tell_cylinder(const WavePlanArguments& a, double k, double omega, Report& out) {
+/// The largest speed along the waves at the axis of the cylinder, in waves of this height and frequency, by linear
+/// theory.
+double speed_at_axis(const WavePlanArguments& a, double height, double omega) {
+  const auto& depth = a.tank.water.depth;
+  const double k = hw::wavenumber(omega, a.tank.water), z = -*a.level;
+  const double fall = depth.is_infinite() ? std::exp(k * z)
+                                          : std::exp(k * z) * (1 + std::exp(-2 * k * (z + depth.metres()))) /
+                                                -std::expm1(-2 * k * depth.metres());
+  return height / 2 * omega * fall;
+}
+
+/// What the water does at the axis of a cylinder across the waves.
+void tell_cylinder(const WavePlanArguments& a, double omega, Report& out) {
   if (a.diameter.has_value() != a.level.has_value())
     throw hydro::InputError("--diameter and --level belong together", {.file = "command line"}, "give both, or none");
   if (!a.diameter) return;
   const auto& depth = a.tank.water.depth;
   hydro::require(*a.level >= 0 && (depth.is_infinite() || *a.level < depth.metres()),
                  "--level must lie between the surface and the bottom, got {} m", *a.level);
-  const double z = -*a.level;
-  const double fall =
-      depth.is_infinite() ? std::exp(k * z) : std::cosh(k * (z + depth.metres())) / std::sinh(k * depth.metres());
-  const double speed = a.height / 2 * omega * fall;
+  const double speed = speed_at_axis(a, a.height, omega);
   out.say("at the axis the water goes at {:.4g} m/s at most along the waves: KC {:.4g}", fact("speed", speed),
           fact("kc", speed * a.period / *a.diameter));
   tell_leading_load(a.cd, speed * a.period / *a.diameter, a.cm, "C_M", out);
 }
 
+constexpr double slender = 0.05;  // of a wavelength: Huijgen 2024, equation 6.11
+
+/// Which load leads on the cylinder in waves of other lengths and heights: KC over thickness, with where waves break.
+plot::Figure regimes(const WavePlanArguments& a, double omega) {
+  constexpr double thinnest = 3e-3, thickest = 1, lowest = 0.1, highest = 100;
+  plot::Panel panel{.x = {"diameter over wavelength", "", plot::Scale::logarithmic, {{thinnest, thickest}}},
+                    .y = {"KC at the axis", "", plot::Scale::logarithmic, {{lowest, highest}}},
+                    .series = {}};
+  plot::Series breaking{.name = "highest waves", .x = {}, .y = {}};
+  constexpr int points = 81;
+  for (int i = 0; i < points; ++i) {
+    const double ratio = thinnest * std::pow(thickest / thinnest, i / (points - 1.0));
+    const double w = hw::angular_frequency(2 * std::numbers::pi * ratio / *a.diameter, a.tank.water);
+    const auto limits = hw::wave_limits(
+        {.height_m = a.height, .length = hydro::AngularFrequency::from_rad_per_s(w), .water = a.tank.water});
+    breaking.x.push_back(ratio);
+    breaking.y.push_back(speed_at_axis(a, limits.highest, w) * 2 * std::numbers::pi / w / *a.diameter);
+  }
+  panel.series.push_back(std::move(breaking));
+  for (const double ratio : {10.0, 1.0, 0.1}) {
+    const double kc = ratio / ::fit::drag_over_inertia(a.cd, 1, a.cm);
+    panel.series.push_back({.name = fmt::format("drag {:g} times inertia", ratio),
+                            .x = {thinnest, thickest},
+                            .y = {kc, kc},
+                            .dashed = true});
+  }
+  panel.series.push_back(
+      {.name = "slender left of it", .x = {slender, slender}, .y = {lowest, highest}, .dashed = true});
+  panel.series.push_back({.name = "these waves",
+                          .x = {*a.diameter * hw::wavenumber(omega, a.tank.water) / (2 * std::numbers::pi)},
+                          .y = {speed_at_axis(a, a.height, omega) * a.period / *a.diameter},
+                          .line = false,
+                          .marks = true});
+  return {.title = fmt::format("Loads on a cylinder of {:.4g} m whose axis lies {:.4g} m below still water",
+                               *a.diameter, *a.level),
+          .panels = {std::move(panel)}};
+}
+
 /// Whether the waves pass the cylinder as if it were not there, as Morison's equation has it.
 void tell_slenderness(const WavePlanArguments& a, double wavelength, std::vector<std::string>& warnings, Report& out) {
   if (!a.diameter) return;
-  constexpr double slender = 0.05;  // Huijgen 2024, equation 6.11
   const double ratio = *a.diameter / wavelength;
   out.say("the cylinder is {:.3g} of a wavelength thick", fact("diameter_over_wavelength", ratio));
   if (ratio >= slender)
@@ -161,6 +208,7 @@ void plan_tow(const TowPlanArguments& a, const Console& console) {
 }
 
 void plan_waves(const WavePlanArguments& a, const Console& console) {
+  require_picture(a.picture);
   const double omega = 2 * std::numbers::pi / a.period;
   const auto limits = hw::wave_limits(
       {.height_m = a.height, .length = hydro::AngularFrequency::from_period_s(a.period), .water = a.tank.water});
@@ -177,7 +225,7 @@ void plan_waves(const WavePlanArguments& a, const Console& console) {
   out.say("highest wave of that length {:.4g} m, of which this is {:.3g}", fact("highest", limits.highest),
           fact("share_of_highest", a.height / limits.highest));
   std::vector<std::string> warnings = limits.warnings;
-  tell_cylinder(a, k, omega, out);
+  tell_cylinder(a, omega, out);
   tell_slenderness(a, limits.wavelength, warnings, out);
   out.say("energy goes at {:.4g} m/s: the waves are at gauge and body after {:.4g} s, and steady from {:.4g} s on",
           fact("group_velocity", times.group_velocity), fact("front_s", times.front), fact("steady_from_s", from));
@@ -188,6 +236,13 @@ void plan_waves(const WavePlanArguments& a, const Console& console) {
     out.say("{}", periods >= 1 ? fmt::format("{:.0f} whole periods are steady and without them", std::floor(periods))
                                : std::string("no period is steady and without them"));
     out.keep("steady_periods", std::max(0.0, std::floor(periods)));
+  }
+  if (a.picture) {
+    if (!a.diameter)
+      throw hydro::InputError("--picture draws the loads on a cylinder, and there is none", {.file = "command line"},
+                              "give --diameter and --level");
+    plot::write_picture(*a.picture, regimes(a, omega));
+    out.say("wrote {}", fact("picture", a.picture->string()));
   }
   out.sentences("warnings", "caution: {}", warnings);
   tell(out, console);

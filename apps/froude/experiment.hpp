@@ -32,6 +32,7 @@ struct WavePlanArguments {
   double ramp = 0, settle_periods = 5;
   std::optional<double> diameter = {}, level = {};  ///< of a cylinder across the waves; m below still water
   double cd = 1.2, cm = 2;                          ///< that are expected of it
+  std::optional<Path> picture = {};                 ///< of which load leads, for other waves too
 };
 void plan_oscillation(const OscillationPlanArguments& arguments, const Console& console);
 void plan_tow(const TowPlanArguments& arguments, const Console& console);

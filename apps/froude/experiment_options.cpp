@@ -188,6 +188,8 @@ void add_wave_plan(CLI::App& experiment, Request& request) {
   command->add_option("--level", texts->level, "of its axis below still water");
   command->add_option("--cd", arguments->cd, "that is expected of it")->capture_default_str();
   command->add_option("--cm", arguments->cm, "that is expected of it")->capture_default_str();
+  command->add_option("--picture", arguments->picture,
+                      "which load leads on the cylinder, by KC and thickness (.svg, .png, .pdf)");
   command->callback([=, &request] {
     request.call = [=](const Console& console) {
       auto& a = *arguments;

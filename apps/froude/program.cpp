@@ -126,6 +126,16 @@ void add_stability(CLI::App& app, Request& request) {
   });
 }
 
+void add_field(CLI::App& app, Request& request) {
+  auto* command = app.add_subcommand(
+      "field", "the free surface about bodies of cylinders or meshes in one regular wave, on a grid");
+  command->footer("Example:\n  froude field examples/farm.toml -o field.h5 --picture field.png");
+  auto arguments = std::make_shared<SceneArguments>();
+  command->add_option("scene", arguments->scene, "scene file (.toml)")->required();
+  add_scene_outputs(*command, "field", *arguments);
+  calls(*command, request, arguments, field);
+}
+
 void add_waves(CLI::App& app, Request& request) {
   auto* waves = app.add_subcommand("waves", "seas: what they are, and series of the water's motion");
   waves->require_subcommand(1);
@@ -513,6 +523,7 @@ void describe(CLI::App& app, Request& request) {
   add_scene_command(app, request, "modes", "free motions of a scene about rest: periods, damping, shapes", &modes,
                     true);
   add_stability(app, request);
+  add_field(app, request);
   add_scene_command(app, request, "run", "time series of a scene", &run, true);
   add_waves(app, request);
   add_hydrostatics(app, request);

@@ -1,7 +1,6 @@
 #include "interchange/content.hpp"
 
 #include <fmt/format.h>
-#include <hdf5.h>
 #include <hdf5_hl.h>
 
 #include <algorithm>
@@ -12,6 +11,7 @@
 #include "hydro/io/csv.hpp"
 #include "hydro/io/hdf5.hpp"
 #include "hydro/io/trial.hpp"
+#include "view/hdf5_handle.hpp"
 
 namespace froude::interchange {
 namespace {
@@ -22,28 +22,12 @@ using hydro::io::Hdf5Reader;
 
 constexpr const char* parts_of_complex = "complex";  // an axis of two: real and imaginary part
 
-/// A handle that is closed as its kind is.
-class Handle {
- public:
-  Handle(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {}
-  ~Handle() {
-    if (id_ >= 0) close_(id_);
-  }
-  Handle(const Handle&) = delete;
-  Handle& operator=(const Handle&) = delete;
-  hid_t get() const { return id_; }
-
- private:
-  hid_t id_;
-  herr_t (*close_)(hid_t);
-};
-
 /// "/branch1/point" as the name "branch1/point".
 std::string name_of(const std::string& dataset) { return dataset.substr(1); }
 
 /// The axes of a dataset by the dimension scales that stand on them; one that is a scale is its own axis.
 std::vector<std::string> axes_of(hid_t file, const std::string& dataset, std::size_t rank, const fs::path& path) {
-  const Handle data(H5Dopen2(file, dataset.c_str(), H5P_DEFAULT), &H5Dclose);
+  const Hdf5Handle data(H5Dopen2(file, dataset.c_str(), H5P_DEFAULT), &H5Dclose);
   if (rank == 1 && H5DSis_scale(data.get()) > 0) return {name_of(dataset)};
   std::vector<std::string> out;
   const auto take = [](hid_t, unsigned, hid_t scale, void* to) -> herr_t {
@@ -128,7 +112,7 @@ class ResultFile {
 
   fs::path path_;
   Hdf5Reader file_;
-  Handle raw_;
+  Hdf5Handle raw_;
 };
 
 /// The first column is the axis along which the others stand.

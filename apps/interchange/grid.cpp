@@ -8,6 +8,7 @@
 #include <numbers>
 #include <span>
 
+#include "answers/plot.hpp"
 #include "hydro/base/base64.hpp"
 
 namespace froude::interchange {
@@ -98,7 +99,7 @@ std::string encoded(const std::vector<T>& values) {
 template <class T>
 std::string data_array(const char* type, const std::string& name, int components, const std::vector<T>& values) {
   return fmt::format("<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"binary\">{}</DataArray>\n",
-                     type, in_xml(name), components, encoded(values));
+                     type, plot::escaped(name), components, encoded(values));
 }
 
 std::string numbers_of(const char* element, const std::vector<std::pair<std::string, std::vector<double>>>& of) {
@@ -112,29 +113,6 @@ std::string numbers_of(const char* element, const std::vector<std::pair<std::str
 
 Faces faces_of(const view::Shape& shape) {
   return std::visit([](const auto& of_kind) { return faces_of_kind(of_kind); }, shape);
-}
-
-std::string in_xml(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        out += c;
-    }
-  }
-  return out;
 }
 
 std::string vtu_of(const Grid& grid, double time_s) {

@@ -33,7 +33,4 @@ struct Grid {
 /// A whole .vtu.
 std::string vtu_of(const Grid& grid, double time_s);
 
-/// Text that XML takes in quotes.
-std::string in_xml(const std::string& text);
-
 }  // namespace froude::interchange

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <complex>
 
+#include "answers/plot.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/io/atomic_file.hpp"
 #include "interchange/grid.hpp"
@@ -179,7 +180,7 @@ VtkFiles write_vtk(const fs::path& collection, const view::View& v, const std::v
       const std::string name = fmt::format("{}_{:06}.vtu", part.name(), f);
       write(folder / name, vtu_of(part.at(f), time[f]));
       instants += fmt::format("<DataSet timestep=\"{}\" part=\"{}\" name=\"{}\" file=\"{}/{}\"/>\n", time[f], number,
-                              part.name(), in_xml(folder.filename().string()), name);
+                              part.name(), plot::escaped(folder.filename().string()), name);
     }
   };
   std::size_t parts = 0;

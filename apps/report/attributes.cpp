@@ -1,33 +1,12 @@
 // Which attributes an object of an HDF5 file has: a report shows whatever was kept, without knowing its names.
-#include <hdf5.h>
-
 #include "hydro/base/error.hpp"
 #include "report/contents.hpp"
+#include "view/hdf5_handle.hpp"
 
 namespace froude::html {
-namespace {
-
-/// A handle that is closed as its kind is.
-class Opened {
- public:
-  Opened(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {}
-  ~Opened() {
-    if (id_ >= 0) close_(id_);
-  }
-  Opened(const Opened&) = delete;
-  Opened& operator=(const Opened&) = delete;
-  hid_t get() const { return id_; }
-
- private:
-  hid_t id_;
-  herr_t (*close_)(hid_t);
-};
-
-}  // namespace
-
 std::vector<std::string> attribute_names(const std::filesystem::path& file, const std::string& object) {
-  const Opened opened(H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), &H5Fclose);
-  const Opened of(opened.get() < 0 ? -1 : H5Oopen(opened.get(), object.c_str(), H5P_DEFAULT), &H5Oclose);
+  const Hdf5Handle opened(H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), &H5Fclose);
+  const Hdf5Handle of(opened.get() < 0 ? -1 : H5Oopen(opened.get(), object.c_str(), H5P_DEFAULT), &H5Oclose);
   std::vector<std::string> out;
   const auto add = [](hid_t, const char* name, const H5A_info_t*, void* names) -> herr_t {
     static_cast<std::vector<std::string>*>(names)->emplace_back(name);

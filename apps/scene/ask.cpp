@@ -164,6 +164,43 @@ Binding<AskStability> stability() {
       .then([](const Record&, AskStability& asked) { check_branches(asked); });
 }
 
+/// Two at least and rising, as a grid needs them.
+void check_grid(const Record& record, AskField& asked) {
+  for (const auto& [key, along] : {std::pair("x", &asked.x), std::pair("y", &asked.y)})
+    if (along->size() < 2)
+      throw record.wrong(key, "has one value; a grid needs two at least",
+                         "write for example \"-30 m .. 30 m, 61 values\"");
+  constexpr double most = 4e6;  // points: the result is then 0.3 GB
+  if (static_cast<double>(asked.x.size()) * static_cast<double>(asked.y.size()) > most)
+    throw record.wrong(
+        "x", fmt::format("and y make {} times {} points; {:g} are the limit", asked.x.size(), asked.y.size(), most),
+        "ask for fewer values");
+}
+
+Binding<AskField> field() {
+  return Binding<AskField>("[ask.field]",
+                           "the free surface about bodies of cylinders or meshes in one regular wave, on a grid, per "
+                           "metre of wave amplitude")
+      .optional(positive("period", dim::time, "of the wave"),
+                [](const Value& period, AskField& asked) { asked.omega = 2 * std::numbers::pi / period.number; })
+      .optional(positive("omega", dim::angular_velocity, "frequency of the wave"), &AskField::omega)
+      .exactly_one_of({"period", "omega"})
+      .key(quantity("heading", dim::angle, "where the wave goes").or_default("0 deg", "along x"), &AskField::heading)
+      .key(range("x", dim::length, "of the grid, global"), &AskField::x)
+      .key(range("y", dim::length, "of the grid, global"), &AskField::y)
+      .key(text("bodies", "\"free\", moving as they respond; or \"held\" still")
+               .one_of({"free", "held"})
+               .or_default("free", "what a float does to waves is most of it its motion"),
+           [](const Value& bodies, AskField& asked) { asked.held = bodies.text == "held"; })
+      .optional(number("accepted_error",
+                       "of the elevation over its largest, that is taken where the [ask] accuracy is missed, as it is "
+                       "within a panel of a hull; left out: none is")
+                    .within(Limit::open_fraction),
+                &AskField::accepted_error)
+      .place(&AskField::place)
+      .then(check_grid);
+}
+
 Binding<AskWaves> waves() {
   return Binding<AskWaves>("[ask.waves]", "time series of the water at the probes, for `froude waves make`")
       .key(quantity("from", dim::time, "first sample").or_default("0 s", "the time that phases refer to"),
@@ -177,7 +214,7 @@ Binding<AskWaves> waves() {
 /// Motions need something that moves.
 void check_bodies(const Record& ask, const Scene& scene) {
   if (!scene.bodies.empty()) return;
-  for (const char* what : {"rao", "stability", "run"}) {
+  for (const char* what : {"rao", "stability", "field", "run"}) {
     if (!ask.has(what) || (what == std::string_view("run") && !scene.lines.empty())) continue;
     throw ask.table(what).refused("asks for motion, but the scene has no body", "add a [[body]]");
   }
@@ -226,6 +263,7 @@ const Binding<Scene>& ask_binding() {
                                 .table("rao", rao(), &Scene::rao)
                                 .table("modes", free_motions(), &Scene::ask_modes)
                                 .table("stability", stability(), &Scene::stability)
+                                .table("field", field(), &Scene::field)
                                 .table("run", run(), &Scene::run)
                                 .table("waves", waves(), &Scene::ask_waves)
                                 .key(number("accuracy",
@@ -238,7 +276,7 @@ const Binding<Scene>& ask_binding() {
                                             "numbers stand in the result file as they are, which is written sooner and "
                                             "is larger; left out: they are packed, without loss"),
                                      &Scene::uncompressed)
-                                .at_least_one_of({"rao", "modes", "stability", "run", "waves"})
+                                .at_least_one_of({"rao", "modes", "stability", "field", "run", "waves"})
                                 .then(check_scene);
   return table;
 }

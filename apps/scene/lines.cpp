@@ -309,6 +309,9 @@ void read_surroundings(const Record& record, Line& out) {
   if (partial && !wet)
     throw record.refused("is immersed in part, but nothing of the water acts on it",
                          "add morison or buoyancy = true, or leave partial_immersion out");
+  if (!wet && record.has("waves"))
+    throw record.table("waves").refused("is where a line takes waves, but nothing of the water acts on it",
+                                        "add morison or buoyancy = true, or leave it out");
   if (!wet && !out.bed && record.has("diameter"))
     throw record.wrong("diameter", "acts on nothing here", "leave it out, or add morison, buoyancy or bed");
   if (wet) out.water.wet = partial ? dl::Wet::below_surface : dl::Wet::all;

@@ -168,6 +168,8 @@ void require_alike(const Line& l, const Line& first) {
     differs("one of them alone has buoyancy", "give it to both or to neither");
   if (l.water.wet != first.water.wet)
     differs("one of them alone is immersed in part", "give partial_immersion to both or to neither");
+  const auto taken_at = [](const Line& x) { return x.waves_at ? std::optional(x.waves_at->place_m) : std::nullopt; };
+  if (taken_at(l) != taken_at(first)) differs("takes waves at another place", "give both the same [line.waves]");
 }
 
 void require_one_bed(const Line& l, const Line& other) {

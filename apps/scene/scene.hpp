@@ -340,6 +340,10 @@ struct Line {
     double from;  ///< s, from which on growth counts
     Place place;
   };
+  struct WavesAt {
+    Eigen::Vector3d place_m;
+    Place place;
+  };
   struct PrescribedMotion {
     bool first;                          ///< the end `from`, else `to`
     std::vector<double> time;            ///< s
@@ -368,6 +372,7 @@ struct Line {
   std::vector<NodeLoad> loads;
   std::optional<Start> start;
   std::optional<PrescribedMotion> prescribed;
+  std::optional<WavesAt> waves_at;  ///< of all nodes; empty: where each is
   std::optional<Snaps> snaps;
   std::optional<Lyapunov> lyapunov;
   Place place;
@@ -470,6 +475,15 @@ struct AskStability {
   About about;
   Place place;
 };
+/// The free surface about bodies in one regular wave, on a grid.
+struct AskField {
+  double omega;               ///< rad/s
+  double heading = 0;         ///< rad, where the wave goes
+  std::vector<double> x, y;   ///< global, m, increasing, two each at least
+  bool held = false;          ///< bodies are held still; else they move as their responses are
+  double accepted_error = 0;  ///< of the elevation over its largest, taken where `accuracy` is missed
+  Place place;
+};
 struct AskRun {
   double duration;                                 ///< s
   double every;                                    ///< s; distance of stored samples; duration is a multiple of it
@@ -528,6 +542,7 @@ struct Scene {
   std::optional<AskRao> rao;
   std::optional<AskModes> ask_modes;
   std::optional<AskStability> stability;
+  std::optional<AskField> field;
   std::optional<AskRun> run;
   std::optional<AskWaves> ask_waves;
   Located<double> accuracy{1e-2, {}};  ///< largest error of each signal asked for

@@ -127,6 +127,29 @@ def rao(scene: AnyScene, *, progress: Progress = None) -> _froude.Rao:
         return _froude.rao(_scene(scene), told)
 
 
+def field(scene: AnyScene, *, progress: Progress = None) -> _froude.FreeSurface:
+    """The free surface about bodies of cylinders or meshes in one regular wave, as ``[ask] field`` says.
+
+    Parameters
+    ----------
+    scene : Scene or path
+    progress : bool or function, optional
+        As of `rao`.
+
+    Returns
+    -------
+    FreeSurface
+        Complex amplitudes per metre of wave amplitude on a grid.
+
+    Raises
+    ------
+    InputError, NumericsError
+        For a scene that asks for none, whose bodies have no shape there, or whose estimate misses its accuracy.
+    """
+    with telling(progress) as told:
+        return _froude.field(_scene(scene), told)
+
+
 def modes(scene: AnyScene, *, progress: Progress = None) -> _froude.Modes:
     """Free motions about rest, as ``[ask] modes`` says.
 

@@ -64,6 +64,17 @@ def of_rao(rao: _froude.Rao) -> "xarray.Dataset":
         {**_about(rao, "rao"), "convention": "Re(amplitude e^{+i omega t}), phase against the crest at the origin"})
 
 
+def of_field(surface: _froude.FreeSurface) -> "xarray.Dataset":
+    """The free surface along y and x, m."""
+    return _xarray().Dataset(
+        {name: (("y", "x"), surface[name], _attributes(surface.unit(name), surface.meaning(name)))
+         for name in surface.signals},
+        {"y": _axis("y", surface.y, "m", "of the grid, global"), "x": _axis("x", surface.x, "m", "of the grid, global"),
+         "omega": surface.omega, "heading": surface.heading},
+        {**_about(surface, "field"), "estimated_error": surface.estimate,
+         "convention": "Re(amplitude e^{+i omega t}), phase against the crest at the origin"})
+
+
 def of_modes(modes: _froude.Modes) -> "xarray.Dataset":
     """Free motions: mode from 1, motions as they are called."""
     data = {

@@ -9,6 +9,8 @@
 #include <sstream>
 
 #include "hydro/base/error.hpp"
+#include "hydro/io/atomic_file.hpp"
+#include "support/scratch.hpp"
 
 namespace experiment_command_test {
 namespace {
@@ -105,6 +107,19 @@ TEST(Experiment, OfWavesTellsWhetherACylinderIsSlender) {
   EXPECT_THAT(j.value("warnings", nlohmann::json::array()).dump(), testing::Not(HasSubstr("slender")));
   a.diameter = 0.051 * length;
   EXPECT_THAT(told(froude::plan_waves, a)["warnings"].dump(), HasSubstr("not slender"));
+}
+
+TEST(Experiment, OfWavesDrawsWhichLoadLeads) {
+  froude::WavePlanArguments a{.period = 1.6, .height = 0.06};
+  a.tank = {.water = {.depth = hydro::WaterDepth::infinite()}, .gauge = 20, .body = 23, .end = 60};
+  a.picture = support::scratch_folder() / "regimes.svg";
+  EXPECT_THAT([&] { told(froude::plan_waves, a); }, ThrowsMessage<InputError>(HasSubstr("--diameter")));
+  EXPECT_FALSE(std::filesystem::exists(*a.picture));
+  a.diameter = 0.12, a.level = 0.2;
+  told(froude::plan_waves, a);
+  EXPECT_THAT(hydro::io::read_text(*a.picture),
+              testing::AllOf(HasSubstr("highest waves"), HasSubstr("drag 10 times inertia"), HasSubstr("these waves"),
+                             HasSubstr("slender left of it"), HasSubstr("KC at the axis")));
 }
 
 TEST(Experiment, OfWavesTellsWhenTheyAreSteady) {

@@ -112,9 +112,16 @@ TEST_F(Fit, OfRecordsOfTowsGivesTheNumbersOfTheTableThatTheyAreMadeWith) {
     EXPECT_NEAR(run["force"]["mean"].get<double>(), force[i],
                 0.3 * deviation[i]);  // √(2·0.25 s/40 s) = 0.11 of it, and the zero's
     EXPECT_NEAR(run["force"]["deviation"].get<double>(), deviation[i], 0.3 * deviation[i]);  // of 80 independent ones
+    // Normal noise has its quartiles 1.349 of its deviation apart; 80 independent ones tell that to 10 %, three times.
+    const auto& box = run["cd_box"];
+    EXPECT_NEAR(box["upper_quartile"].get<double>() - box["lower_quartile"].get<double>(),
+                1.349 * run["cd_of_samples"]["deviation"].get<double>(),
+                0.3 * 1.349 * run["cd_of_samples"]["deviation"].get<double>());
+    EXPECT_NEAR(box["median"].get<double>(), cd[i], 0.5 * deviation[i] / force[i] * cd[i]);
   }
-  EXPECT_THAT(hydro::io::read_text(folder / "t.svg"), AllOf(HasSubstr("steady part"), HasSubstr("C_D")));
-  EXPECT_THAT(hydro::io::read_text(folder / "t.csv"), HasSubstr("tow_5.csv,"));
+  EXPECT_THAT(hydro::io::read_text(folder / "t.svg"),
+              AllOf(HasSubstr("steady part"), HasSubstr("C_D"), HasSubstr("outliers")));
+  EXPECT_THAT(hydro::io::read_text(folder / "t.csv"), AllOf(HasSubstr("tow_5.csv,"), HasSubstr(",cd_median,")));
   const std::string text = told({.scene = examples / "tows.toml"});
   EXPECT_THAT(text, AllOf(HasSubstr("coefficient of variation"), HasSubstr("steady part: the carriage moves from"),
                           HasSubstr("cd over 5 runs")));

@@ -21,7 +21,7 @@ class Examples(unittest.TestCase):
         scenes = sorted((SOURCE / "examples").glob("*.toml"))
         self.assertGreaterEqual(len(scenes), 4)
         for scene in scenes:
-            asked = [what for what in ("rao", "modes", "run") if what in tomllib.loads(scene.read_text())["ask"]]
+            asked = [what for what in ("rao", "modes", "field", "run") if what in tomllib.loads(scene.read_text())["ask"]]
             self.assertTrue(asked, scene.name)
             for what in asked:
                 with self.subTest(scene=scene.name, what=what):

@@ -6,6 +6,7 @@ The reference of a number is the run of its case by itself, whose scene `froude 
 import csv
 import fcntl
 import json
+import math
 import os
 import resource
 import shutil
@@ -387,6 +388,26 @@ y = "start"
         # The controller acts after a window and two looks: without it the run is the same until then.
         deviation = {r["control [s]"]: float(r["m2.surge.deviation [m]"]) for r in self.rows("control")}
         self.assertLess(deviation["25"], deviation["180"])
+
+    def test_the_studies_of_damping_have_their_pictures_and_a_best_damping(self):
+        shutil.copytree(SOURCE / "examples", self.folder / "examples")
+        for study, cases in (("regimes", 3), ("takeoff", 28)):
+            said = json.loads(self.sweep(f"examples/sweep/{study}.toml", "-o", study, "--json").stdout)
+            self.assertEqual((said["cases"], said["failed"]), (cases, 0), study)
+            self.assertTrue((self.folder / study / f"{study}.svg").exists())
+        # With a quarter of the critical damping the first swing back is e^(-pi zeta/sqrt(1 - zeta^2)) of the first; with
+        # all of it and more there is none.
+        lowest = [float(r["m.surge.minimum [m]"]) for r in self.rows("regimes")]
+        zeta = 0.25
+        self.assertAlmostEqual(lowest[0], -0.1 * math.exp(-math.pi * zeta / math.sqrt(1 - zeta ** 2)), delta=1e-4)
+        self.assertGreater(min(lowest[1:]), -1e-9)
+        # Power has its largest value inside the range, at all periods.
+        power = {}
+        for r in self.rows("takeoff"):
+            power.setdefault(r["period [s]"], []).append(float(r["rack.pto_power.mean [W]"]))
+        self.assertEqual(len(power), 4)
+        for period, along in power.items():
+            self.assertNotIn(along.index(max(along)), (0, len(along) - 1), period)
 
     def test_the_study_of_rows_has_its_507_cases(self):
         # One module, then 2, 3 and 5 on four sets of connectors, each in 39 waves; their scenes are read, not run.

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "fit/box.hpp"
 #include "fit/channel_line.hpp"
 #include "fit/problem/regular_waves.hpp"
 #include "hydro/base/error.hpp"
@@ -159,7 +160,7 @@ TEST(RegularWaves, RefuseWhatIsTooShort) {
 }
 
 TEST(RepeatedWaves, HaveTheQuartilesOfTheirValues) {
-  using fit::regular_waves::quantile_of;
+  using fit::quantile_of;
   EXPECT_DOUBLE_EQ(quantile_of({4, 1, 3, 2, 5}, 0.5), 3);
   EXPECT_DOUBLE_EQ(quantile_of({4, 1, 3, 2, 5}, 0.25), 2);
   EXPECT_DOUBLE_EQ(quantile_of({1, 2}, 0.75), 1.75);

@@ -9,7 +9,7 @@ defined nowhere, such as Eigen's inverse() without <Eigen/LU>, is an error too: 
 that a source includes before anything else has been read alone with it; the other public ones are read as files of their own.
 A file whose text, headers and command are as in the last run is not read again. Python's standard library only.
 
-FROUDE_READ_ALONE=8 reads what the last commits touched and an eighth of the rest, another one after each commit: all is
+FROUDE_READ_ALONE=16 reads what the last commits touched and a sixteenth of the rest, another one after each commit: all is
 twenty minutes of a core. Where git tells no history, as in an archive, all is read.
 """
 import concurrent.futures
@@ -122,7 +122,7 @@ def of_this_commit(files, source, parts):
     commit = git(source, "rev-parse", "HEAD")
     if not commit:
         return files
-    late = git(source, "log", "-40", "--name-only", "--format=") if git(
+    late = git(source, "log", "-25", "--name-only", "--format=") if git(
         source, "rev-parse", "--is-shallow-repository") == "false" else ""
     touched = {*late.splitlines(), *git(source, "diff", "--name-only", "HEAD").splitlines()}
 

@@ -30,6 +30,41 @@ def test_responses_have_both_dimensions(examples, scene):
     np.testing.assert_array_equal(data.omega, rao.omega)
 
 
+PILE = """schema = 1
+[water]
+density = "1025 kg/m^3"
+depth = "20 m"
+[[body]]
+name = "pile"
+mass = "64.403 t"
+free = "heave"
+[body.hydrodynamics]
+excitation = true
+[body.hydrodynamics.cylinders]
+at = "(0, 0, 0) m"
+diameter = "4 m"
+draught = "5 m"
+frequencies = "1.2 rad/s .. 1.3 rad/s, 2 values"
+[ask]
+field = { omega = "1.25 rad/s", bodies = "held", x = "-6 m .. 6 m, 7 values", y = "-4 m .. 4 m, 3 values" }
+accuracy = 5e-2
+"""
+
+
+def test_the_free_surface_has_both_dimensions_and_is_the_sum_of_its_parts():
+    field = froude.field(froude.read_text(PILE))
+    data = field.to_xarray()
+    assert data["elevation"].dims == ("y", "x") and data["elevation"].shape == (3, 7)
+    np.testing.assert_array_equal(data.x, field.x)
+    assert field.held and field.omega == 1.25 and 0 < field.estimate < 0.05
+    told = ~np.isnan(field["elevation"])
+    assert (~told).sum() == 1 and not told[1, 3]  # in the pile
+    parts = field["incident"] + field["scattered"] + field["radiated"]
+    np.testing.assert_allclose(field["elevation"][told], parts[told], rtol=1e-14)
+    np.testing.assert_array_equal(field["radiated"][told], 0)
+    np.testing.assert_allclose(abs(field["incident"][told]), 1, rtol=1e-14)
+
+
 def test_spectra_modes_and_coefficients(examples):
     spectra = froude.response(examples / "seastate.toml")
     data = spectra.to_xarray()

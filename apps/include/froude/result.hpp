@@ -242,6 +242,23 @@ struct StabilityMap {
 };
 std::string name_of(StabilityMap::Reached reached);
 
+/// The free surface about the bodies of a scene in one regular wave, on a grid.
+struct FreeSurface {
+  double omega, heading;     ///< rad/s; rad, where the wave goes
+  bool held;                 ///< bodies are held still
+  std::vector<double> x, y;  ///< m
+  /// "elevation", "incident", "scattered" and "radiated", m/m: value of x i, y j at j Nx + i. NaN where nothing is
+  /// told: in bodies, and within the circle about a hull whose waves are told by partial waves.
+  std::vector<ComplexSignal> signals;
+  double estimate = 0;             ///< of the elevation's error, over its largest
+  std::vector<std::string> notes;  ///< what had to be decided, and what is left out
+  Provenance provenance = {};      ///< without the notes
+
+  const std::vector<std::complex<double>>& elevation() const { return signals.front().values; }
+  /// Dimensions `y`, `x` and `complex`. \throws hydro::InputError if the file cannot be written
+  void write(const std::filesystem::path& path) const;
+};
+
 /// One line of a plan: an effect, how it is computed, how large it is; or why it is left out.
 struct PlanLine {
   std::string effect, method, size;

@@ -59,6 +59,8 @@ class Scene {
   Run run(const std::function<void(double)>& progress = {}, const std::vector<Control>& controls = {}) const;
   /// [ask] rao. \throws hydro::InputError, hydro::NumericsError
   Responses rao() const;
+  /// [ask] field: the free surface about the bodies in one wave. \throws hydro::InputError, hydro::NumericsError
+  FreeSurface field() const;
   /// [ask] modes. \throws hydro::InputError, hydro::NumericsError
   Modes modes() const;
   /// [ask] waves: the water at the probes. \throws hydro::InputError

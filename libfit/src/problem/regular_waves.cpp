@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "fit/box.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/signal/distributions.hpp"
 #include "hydro/signal/welch.hpp"
@@ -208,15 +209,6 @@ void tell(const Repeats& r, const std::string& unit, double confidence, Report& 
 }
 
 }  // namespace
-
-double quantile_of(std::vector<double> values, double q) {
-  hydro::require(!values.empty() && q >= 0 && q <= 1, "a quantile needs values and a share between 0 and 1, got {}", q);
-  std::sort(values.begin(), values.end());
-  const double at = q * static_cast<double>(values.size() - 1);
-  const auto below = static_cast<std::size_t>(at);
-  if (below + 1 >= values.size()) return values.back();
-  return values[below] + (at - static_cast<double>(below)) * (values[below + 1] - values[below]);
-}
 
 Solution solve(const Problem& problem) {
   hydro::require(!problem.runs.empty(), "there are no runs in waves");

@@ -142,6 +142,7 @@ RecordedTow recorded(const Problem& problem, const Record& record) {
                   .speed = {},
                   .force = {},
                   .samples = {},
+                  .box = {},
                   .cd = {},
                   .re = {}};
   PreparedTow& p = out.prepared;
@@ -158,6 +159,7 @@ RecordedTow recorded(const Problem& problem, const Record& record) {
   for (std::size_t i = out.steady.from; i < out.steady.to; ++i)
     samples.push_back(towing_point(problem.cylinder, {p.speed[i], 0, p.force[i], 0}).cd);
   out.samples = steady_mean(samples);
+  out.box = box_of(std::move(samples));
   add_coefficient(problem, out);
   for (const auto& [name, unit, mean] : {std::tuple{"speed", "m/s", &out.speed}, {"force", "N", &out.force}})
     if (std::abs(mean->drift) > 3 * mean->drift_error)
@@ -177,6 +179,15 @@ Facts facts_of(const SteadyMean& mean) {
           {"effective_samples", mean.effective_samples}};
 }
 
+Facts facts_of(const Box& box) {
+  return {{"lower_quartile", box.lower_quartile},
+          {"median", box.median},
+          {"upper_quartile", box.upper_quartile},
+          {"low", box.low},
+          {"high", box.high},
+          {"outliers", box.outliers.size()}};
+}
+
 Report told(const Source& source, const RecordedTow& r) {
   Report report = begin_run(source);
   const auto& p = r.prepared;
@@ -187,7 +198,8 @@ Report told(const Source& source, const RecordedTow& r) {
                         {"to_s", p.time[r.steady.to - 1]},
                         {"speed", facts_of(r.speed)},
                         {"force", facts_of(r.force)},
-                        {"cd_of_samples", facts_of(r.samples)}});
+                        {"cd_of_samples", facts_of(r.samples)},
+                        {"cd_box", facts_of(r.box)}});
   if (r.re) report.facts.emplace_back("re", *r.re);
   report.estimates = {{.coefficient = r.cd}};
   report.say(
@@ -195,6 +207,10 @@ Report told(const Source& source, const RecordedTow& r) {
       "deviation of {:.2g} from scatter and {:.2g} in all",
       r.samples.value, r.samples.deviation, 100 * r.samples.coefficient_of_variation(), r.samples.error,
       r.cd.standard_error);
+  report.say(
+      "half of them lie between {:.4g} and {:.4g} about the median {:.4g}, all but {} outliers between {:.4g} and "
+      "{:.4g}",
+      r.box.lower_quartile, r.box.upper_quartile, r.box.median, r.box.outliers.size(), r.box.low, r.box.high);
   report.steps = p.steps;
   report.cautions = p.cautions;
   return report;

@@ -238,37 +238,56 @@ std::optional<Iterated> Groups::iterated(const Between& between, const Amplitude
   return all;
 }
 
-// a = plane waves + G b, b = T a + R v, loads = E a + L v with the matrices of the groups.
-Response Groups::respond(const std::vector<double>& heading, const MatrixXd& motion, Equations wanted) const {
-  const Index waves = grouping_.between.count(), headings = static_cast<Index>(heading.size());
-  Amplitudes moving = Amplitudes::Zero(motion.rows(), headings + motion.cols());
-  moving.rightCols(motion.cols()) = motion.cast<Complex>();
-  const Amplitudes own = apply(&Compound::R, moving, waves, 6);
-  const double columns = static_cast<double>(moving.cols());
-  const bool iterative = equations_cost(grouping_, cylinders_.size(), lattice_, columns, wanted).iterative;
-  const Between passages = between(iterative ? lattice_ : nullptr);
-  Amplitudes a = passages.translated(own);
-  a.leftCols(headings) += plane_waves(heading);
-  Response out{{}, {}, 0, passages.uses_lattice()};
-  if (groups_.members.size() > 1) {
-    const auto found = iterative ? iterated(passages, a) : std::nullopt;
-    if (!found && wanted == Equations::iterative)
-      throw InputError(fmt::format("the iteration between {} groups of cylinders did not converge in {} steps",
-                                   groups_.members.size(), most_steps),
-                       {}, "ask for direct equations, or leave the choice to the program");
-    const auto eliminated = [&](const Between& all) -> Amplitudes {
-      return dense::ComplexLu(all.system(groups_)).solve(a);
-    };
-    if (found) {
-      out.steps = found->steps;
-      a = found->x;
-    } else {
-      a = out.lattice ? eliminated(between(nullptr)) : eliminated(passages);
-    }
-  }
-  out.sent_out = apply(&Compound::T, a, waves, waves) + own;
-  out.loads = apply(&Compound::E, a, 6, waves) + apply(&Compound::L, moving, 6, 6);
+namespace {
+
+/// Of `columns` in all, the last are these velocities.
+Amplitudes moving(const MatrixXd& motion, Index columns) {
+  Amplitudes out = Amplitudes::Zero(motion.rows(), columns);
+  out.rightCols(motion.cols()) = motion.cast<Complex>();
   return out;
+}
+
+}  // namespace
+
+// a = plane waves + G b, b = T a + R v with the matrices of the groups.
+Arrived Groups::arrived(const std::vector<double>& heading, const MatrixXd& motion, Equations wanted) const {
+  const Index headings = static_cast<Index>(heading.size()), columns = headings + motion.cols();
+  const bool iterative =
+      equations_cost(grouping_, cylinders_.size(), lattice_, static_cast<double>(columns), wanted).iterative;
+  const Between passages = between(iterative ? lattice_ : nullptr);
+  Arrived out{passages.translated(apply(&Compound::R, moving(motion, columns), grouping_.between.count(), 6)), 0,
+              passages.uses_lattice()};
+  out.a.leftCols(headings) += plane_waves(heading);
+  if (groups_.members.size() == 1) return out;
+  auto found = iterative ? iterated(passages, out.a) : std::nullopt;
+  if (!found && wanted == Equations::iterative)
+    throw InputError(fmt::format("the iteration between {} groups of cylinders did not converge in {} steps",
+                                 groups_.members.size(), most_steps),
+                     {}, "ask for direct equations, or leave the choice to the program");
+  const auto eliminated = [&](const Between& all) -> Amplitudes {
+    return dense::ComplexLu(all.system(groups_)).solve(out.a);
+  };
+  if (found) {
+    out.steps = found->steps;
+    out.a = std::move(found->x);
+  } else {
+    out.a = out.lattice ? eliminated(between(nullptr)) : eliminated(passages);
+  }
+  return out;
+}
+
+Amplitudes Groups::sent_out(const Amplitudes& a, const MatrixXd& motion) const {
+  const Index waves = grouping_.between.count();
+  return apply(&Compound::T, a, waves, waves) + apply(&Compound::R, moving(motion, a.cols()), waves, 6);
+}
+
+// loads = E a + L v.
+Response Groups::respond(const std::vector<double>& heading, const MatrixXd& motion, Equations wanted) const {
+  const Arrived there = arrived(heading, motion, wanted);
+  const Amplitudes& a = there.a;
+  return {sent_out(a, motion),
+          apply(&Compound::E, a, 6, grouping_.between.count()) + apply(&Compound::L, moving(motion, a.cols()), 6, 6),
+          there.steps, there.lattice};
 }
 
 // e^{−ikr cos(θ−β)} = Σ_m (−i)^m J_m(kr) e^{im(θ−β)}.

@@ -53,6 +53,13 @@ Grouping choose_grouping(const std::vector<Cylinder>& cylinders, const std::vect
                          const Lattice* lattice, const VerticalModes& modes, double threshold, double columns,
                          double steps, Equations wanted);
 
+/// What arrives at the cylinders, of waves (columns first) and of motions (columns after).
+struct Arrived {
+  Amplitudes a;  ///< in the partial waves between groups
+  int steps;     ///< of the iteration; 0: solved by elimination
+  bool lattice;  ///< waves passed over a lattice
+};
+
 /// Answers for waves that arrive (columns first) and for motions (columns after).
 struct Response {
   Eigen::MatrixXcd sent_out;  ///< amplitudes b in the partial waves between groups
@@ -77,6 +84,10 @@ class Groups {
   /// Potentials Z_0(z) e^{−ik(x cos β + y sin β)}, one a heading, and velocities (6 a cylinder, columns).
   /// \throws InputError if iteration is wanted and does not converge; where it was chosen here, elimination follows
   Response respond(const std::vector<double>& heading, const Eigen::MatrixXd& motion, Equations wanted) const;
+  /// The part of respond() that solves. \throws InputError as respond()
+  Arrived arrived(const std::vector<double>& heading, const Eigen::MatrixXd& motion, Equations wanted) const;
+  /// Amplitudes b of the waves that are sent out where `a` arrives, columns as arrived() has them.
+  Amplitudes sent_out(const Amplitudes& a, const Eigen::MatrixXd& motion) const;
   /// f(θ) of the waves sent out, φ → f(θ) √(2/(πkr)) e^{−i(kr − π/4)} Z_0(z) (C13): one row an angle.
   Eigen::MatrixXcd far_field(const Eigen::MatrixXcd& sent_out, const std::vector<double>& angle) const;
 

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "bottom_mounted.hpp"
+#include "deep.hpp"
 #include "hydro/potential/coefficients.hpp"
 #include "tails.hpp"
 
@@ -65,11 +66,11 @@ void require_coupling(const Channels& channels, const char* scatterers, double o
                     scatterers));
 }
 
-Resolution Resolution::doubled() const { return {2 * gap_functions, std::pow(threshold, 1.5), equations}; }
+Resolution Resolution::doubled() const { return {2 * gap_functions, std::pow(threshold, 1.5), equations, orders}; }
 
 Model::Model(const std::vector<CylinderBody>& bodies, const Water& water, const Resolution& resolution,
              const std::vector<double>& omega, Asked asked)
-    : water_(water), resolution_(resolution) {
+    : water_(water), resolution_(resolution), orders_(resolution.orders) {
   sort_into_types(bodies);
   lattice_ = find_lattice(cylinders_);
   motion_ = MatrixXd::Zero(6 * static_cast<Index>(cylinders_.size()), 6 * static_cast<Index>(bodies.size()));
@@ -223,6 +224,30 @@ double Model::difference(const Model& other, double omega) const {
       largest = std::max(largest, relative_change(ours[t].order[m].L, theirs[t].order[m].L));
   }
   return largest;
+}
+
+int choose_gap_functions(const std::vector<CylinderBody>& bodies, const Water& water, const std::vector<double>& omega,
+                         double tolerance) {
+  constexpr int most = 24;
+  int count = 3;
+  for (const double w : {omega.front(), omega.back(), infinite}) {
+    const Water here = effective_water(bodies, water, w);
+    const std::vector<double> list = std::isinf(w) ? std::vector<double>{} : std::vector<double>{w};
+    while (true) {
+      const Model coarse(bodies, here, {count, 1}, list), fine(bodies, here, {2 * count, 1}, list);
+      const double change = coarse.difference(fine, w);
+      if (change < tolerance) break;
+      if (2 * count > most)
+        throw InputError(fmt::format("at {:.6g} rad/s the cylinders can be solved to about {:.1f} digits; {:.1f} are "
+                                     "asked for",
+                                     w, -std::log10(change), -std::log10(tolerance)),
+                         {},
+                         "ask for less accuracy, or leave out this frequency: the depth is too many times the "
+                         "draught, radius or wavelength");
+      count *= 2;
+    }
+  }
+  return count;
 }
 
 }  // namespace hydro::cylinders

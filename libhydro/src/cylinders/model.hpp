@@ -21,6 +21,7 @@ struct Resolution {
   int gap_functions;  ///< per family (C5)
   double threshold;   ///< coupling below which partial waves are left out (C11)
   Equations equations = Equations::automatic;
+  int orders = 2;  ///< azimuthal orders that single cylinders can be asked for, at least: as many as couple, or more
   Resolution doubled() const;
 };
 
@@ -40,6 +41,18 @@ VerticalModes modes_that_may_couple(const std::vector<Cylinder>& cylinders, cons
 /// `scatterers` is what they pass between
 void require_coupling(const Channels& channels, const char* scatterers, double omega);
 
+/// Waves that cylinders send out, near them too.
+struct SentOut {
+  VerticalModes modes;
+  Channels channels;     ///< more than pass between cylinders: enough to tell φ at the nearest point
+  Amplitudes amplitude;  ///< b of (C4), by WaveIndex; of the wave that arrives, then of the velocities
+};
+
+/// The fewest gap functions with which doubling changes the single cylinders by less than the tolerance at both ends of
+/// `omega` and in the limit. \throws InputError with the digits that can be had
+int choose_gap_functions(const std::vector<CylinderBody>& bodies, const Water& water, const std::vector<double>& omega,
+                         double tolerance);
+
 class Model {
  public:
   enum class Asked { answers, cost };  ///< for the cost alone nothing is built
@@ -50,6 +63,8 @@ class Model {
 
   OneFrequency at(double omega, const std::vector<double>& heading) const;
   Eigen::MatrixXd added_mass_at_infinity() const;
+  /// Waves that the cylinders send out at one frequency: of a unit plane wave Z_0 and of velocities of the bodies.
+  SentOut sent_out(double omega, double heading, const Eigen::MatrixXd& velocity, double nearest) const;
   /// Largest relative difference of the single cylinders' loads and diffraction from those of another resolution.
   double difference(const Model& other, double omega) const;
   /// What at() will take.
@@ -57,6 +72,7 @@ class Model {
   /// What the model itself takes to be built, complex multiplications; one in water of finite depth serves all
   /// frequencies.
   double building_work() const;
+  const std::vector<Cylinder>& cylinders() const { return cylinders_; }
 
  private:
   struct Type {
@@ -84,7 +100,7 @@ class Model {
   Eigen::MatrixXd motion_;  // (6 cylinders, 6 bodies): velocities of the cylinders when the bodies move
   std::vector<Type> types_;
   std::vector<std::size_t> type_of_;
-  int orders_ = 2;
+  int orders_;
 };
 
 }  // namespace hydro::cylinders

@@ -43,31 +43,6 @@ class Models {
   std::shared_ptr<const Model> shared_;
 };
 
-/// The fewest gap functions with which doubling changes the single cylinders by less than the tolerance.
-int choose_gap_functions(const std::vector<CylinderBody>& bodies, const Water& water, const std::vector<double>& omega,
-                         double tolerance) {
-  constexpr int most = 24;
-  int count = 3;
-  for (const double w : {omega.front(), omega.back(), infinite}) {
-    const Water here = effective_water(bodies, water, w);
-    const std::vector<double> list = std::isinf(w) ? std::vector<double>{} : std::vector<double>{w};
-    while (true) {
-      const Model coarse(bodies, here, {count, 1}, list), fine(bodies, here, {2 * count, 1}, list);
-      const double change = coarse.difference(fine, w);
-      if (change < tolerance) break;
-      if (2 * count > most)
-        throw InputError(fmt::format("at {:.6g} rad/s the cylinders can be solved to about {:.1f} digits; {:.1f} are "
-                                     "asked for",
-                                     w, -std::log10(change), -std::log10(tolerance)),
-                         {},
-                         "ask for less accuracy, or leave out this frequency: the depth is too many times the "
-                         "draught, radius or wavelength");
-      count *= 2;
-    }
-  }
-  return count;
-}
-
 void fill_bodies(const std::vector<CylinderBody>& bodies, const Water& water, Coefficients& c) {
   bool restoring_known = true;
   for (const CylinderBody& body : bodies) {

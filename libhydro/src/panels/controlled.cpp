@@ -107,8 +107,8 @@ class Ladder {
   }
   std::vector<OneFrequency> answers(const std::vector<Extrapolated>& of_each) const;
   std::optional<MatrixXd> limit(Limit which, double omega, const Sizes& size, double& doubtful) const;
-  Estimate estimate(const Work& w, const Sizes& size) const;
-  double interpolation_error(const Work& w, const Sizes& size) const;
+  Estimate estimate(const Work& w, const std::vector<Extrapolated>& correction, const Sizes& size) const;
+  double interpolation_error(const Work& w, const std::vector<Extrapolated>& correction, const Sizes& size) const;
   double roughness() const;
 
   const std::vector<double>&omega_, &heading_;
@@ -221,7 +221,7 @@ Work Ladder::work(Estimate& e) const {
   w.results = answers(value);
   w.check = self_check(w.results, first().mesh->length());
   const Sizes size = sizes(w.results, w.check.length);
-  e = estimate(w, size);
+  e = estimate(w, correction, size);
   double doubtful = 0;
   w.A_inf = *limit(&Level::inf, infinite, size, doubtful);
   w.A_zero = limit(&Level::zero, 0, size, doubtful);
@@ -235,13 +235,13 @@ Work Ladder::work(Estimate& e) const {
   return w;
 }
 
-Estimate Ladder::estimate(const Work& w, const Sizes& size) const {
+Estimate Ladder::estimate(const Work& w, const std::vector<Extrapolated>& correction, const Sizes& size) const {
   Estimate e;
   for (const std::size_t i : samples()) {
     const OneFrequency finest = answer(i, *levels_.back().at[i]);
     e.panels = std::max(e.panels, doubtful_share(levels_.size()) * largest(sum(w.results[i], -1, finest), size));
   }
-  if (!samples_all()) e.interpolation = interpolation_error(w, size);
+  if (!samples_all()) e.interpolation = interpolation_error(w, correction, size);
   const auto looks = frequencies_of_more_waves();
   for (std::size_t k = 0; k < looks.size(); ++k) {
     const OneFrequency fewer = answer(looks[k], *first().at[looks[k]]);
@@ -250,8 +250,8 @@ Estimate Ladder::estimate(const Work& w, const Sizes& size) const {
   return e;
 }
 
-double Ladder::interpolation_error(const Work& w, const Sizes& size) const {
-  const std::vector<Extrapolated> correction = corrections();
+double Ladder::interpolation_error(const Work& w, const std::vector<Extrapolated>& correction,
+                                   const Sizes& size) const {
   const std::vector<std::size_t> at = samples();
   const std::vector<double> nodes = sample_omega();
   double missed = 0, added = 0;
@@ -271,11 +271,11 @@ double Ladder::interpolation_error(const Work& w, const Sizes& size) const {
 double Ladder::roughness() const {
   std::vector<Extrapolated> at_nodes;
   for (const std::size_t i : samples()) at_nodes.push_back(*first().at[i]);
+  const std::vector<double> nodes = sample_omega();
   std::vector<std::vector<OneFrequency>> known, interpolated;  // [hull that stands alone][frequency]
   for (std::size_t i = 0; i < omega_.size(); ++i) {
     const auto here = solver().alone(omega_[i], heading_, *first().at[i]);
-    const auto by_nodes =
-        solver().alone(omega_[i], heading_, weighted(at_nodes, cubic_weights(sample_omega(), omega_[i])));
+    const auto by_nodes = solver().alone(omega_[i], heading_, weighted(at_nodes, cubic_weights(nodes, omega_[i])));
     known.resize(here.size());
     interpolated.resize(here.size());
     for (std::size_t k = 0; k < here.size(); ++k) {
@@ -309,7 +309,7 @@ int first_samples(const Options& options) {
 
 Work controlled_work(const Discretisation& given, const std::vector<double>& omega, const std::vector<double>& heading,
                      const Options& options) {
-  Ladder ladder(given.graded(omega.back()), omega, heading, options);
+  Ladder ladder(given.graded(omega.back(), usual_gradings), omega, heading, options);
   while (true) {
     ladder.solve();
     Estimate e;

@@ -6,6 +6,7 @@
 #include "hull_array.hpp"
 #include "refine.hpp"
 #include "request.hpp"
+#include "surface.hpp"
 
 namespace hydro::panels {
 namespace {
@@ -14,7 +15,7 @@ namespace {
 class AnswersOfModel : public Solver {
  public:
   AnswersOfModel(PanelMesh mesh, const std::vector<HullBody>& bodies, const Water& water)
-      : model_(std::move(mesh), bodies, water) {}
+      : model_(std::move(mesh), bodies, water), water_(water) {}
 
   Extrapolated solved(double omega, const std::vector<double>& heading) const override {
     if (omega == 0 || std::isinf(omega)) return {model_.added_mass_limit(omega)};
@@ -29,9 +30,13 @@ class AnswersOfModel : public Solver {
                                   const Extrapolated& from) const override {
     return {answer(omega, heading, from)};
   }
+  potential::WaveField field(const potential::FieldQuestion& question, int threads) const override {
+    return field_of(model_, water_, question, threads);
+  }
 
  private:
   Model model_;
+  Water water_;
 };
 
 /// All panels in one set of equations.
@@ -44,8 +49,8 @@ class Together : public Discretisation {
     return std::make_unique<AnswersOfModel>(mesh_, bodies_, water_);
   }
   std::unique_ptr<const Discretisation> refined() const override { return with(panels::refined(mesh_)); }
-  std::unique_ptr<const Discretisation> graded(double highest) const override {
-    return with(first_mesh(mesh_, water_, highest));
+  std::unique_ptr<const Discretisation> graded(double highest, int gradings) const override {
+    return with(first_mesh(mesh_, water_, highest, gradings));
   }
   void require_short_panels(double highest) const override { panels::require_short_panels(mesh_, water_, highest); }
   Cost cost(const std::vector<double>& omega, std::size_t headings, int threads, int refined) const override {
@@ -88,11 +93,10 @@ std::unique_ptr<const Discretisation> apart(const std::vector<HullBody>& bodies,
 Cost cost_as_asked(const Discretisation& given, const std::vector<double>& omega, std::size_t headings,
                    const Options& options) {
   if (!options.tolerance) return given.cost(omega, headings, options.threads, options.refined_frequencies);
-  return given.graded(omega.back())->cost(omega, headings, options.threads, first_samples(options));
+  return given.graded(omega.back(), usual_gradings)->cost(omega, headings, options.threads, first_samples(options));
 }
 
-PanelMesh first_mesh(const PanelMesh& given, const Water& water, double highest) {
-  constexpr int gradings = 2;       // edge panels a quarter as wide: more is not seen beside the others' error
+PanelMesh first_mesh(const PanelMesh& given, const Water& water, double highest, int gradings) {
   constexpr int most_halvings = 6;  // 4096 panels for one: what is longer still is refused
   PanelMesh mesh = graded(given, gradings);
   for (int i = 0; i < most_halvings && too_long(mesh, water, highest); ++i) mesh = refined(mesh);

@@ -2,6 +2,7 @@
 /// \file  Panels of all hulls, and by which equations they are solved. Not installed.
 #include <memory>
 
+#include "hydro/potential/wave_field.hpp"
 #include "panel_mesh.hpp"
 
 namespace hydro::panels {
@@ -28,6 +29,8 @@ class Solver {
   /// The answers of hulls that stand alone, from which their own resonances are seen; of all together that one answer.
   virtual std::vector<OneFrequency> alone(double omega, const std::vector<double>& heading,
                                           const Extrapolated& from) const = 0;
+  /// The surface about the hulls, not extrapolated. `threads`: which share the points.
+  virtual potential::WaveField field(const potential::FieldQuestion& question, int threads) const = 0;
 
   OneFrequency at(double omega, const std::vector<double>& heading) const {
     return answer(omega, heading, solved(omega, heading));
@@ -46,9 +49,9 @@ class Discretisation {
   virtual std::unique_ptr<const Solver> solver() const = 0;
   /// Every panel cut in four.
   virtual std::unique_ptr<const Discretisation> refined() const = 0;
-  /// The coarsest that an error is controlled with: at edges panels are a quarter as wide, and no panel that waves
-  /// reach is longer than waves of the frequency `highest` allow.
-  virtual std::unique_ptr<const Discretisation> graded(double highest) const = 0;
+  /// With panels halved so often at edges, and no panel that waves reach longer than waves of the frequency `highest`
+  /// allow.
+  virtual std::unique_ptr<const Discretisation> graded(double highest, int gradings) const = 0;
   /// \throws InputError if panels are longer than waves of the frequency `highest` allow
   virtual void require_short_panels(double highest) const = 0;
   /// Of answers at `omega`, and of these again with every panel cut in four at so many frequencies.
@@ -72,7 +75,11 @@ std::unique_ptr<const Discretisation> discretised(const std::vector<HullBody>& b
 Cost cost_as_asked(const Discretisation& given, const std::vector<double>& omega, std::size_t headings,
                    const Options& options);
 
-/// The coarsest mesh that an error is controlled with, as Discretisation::graded().
-PanelMesh first_mesh(const PanelMesh& given, const Water& water, double highest);
+/// Of the coarsest mesh that an error is controlled with: edge panels a quarter as wide. More is not seen beside the
+/// others' error.
+inline constexpr int usual_gradings = 2;
+
+/// As Discretisation::graded().
+PanelMesh first_mesh(const PanelMesh& given, const Water& water, double highest, int gradings);
 
 }  // namespace hydro::panels

@@ -7,6 +7,7 @@
 #include "controlled.hpp"
 #include "cylinders/deep.hpp"
 #include "cylinders/model.hpp"
+#include "cylinders/surface.hpp"
 #include "potential/solver_request.hpp"
 #include "refine.hpp"
 #include "regular_waves.hpp"
@@ -135,6 +136,18 @@ class ArraySolver : public Solver {
     for (std::size_t k = 0; k < places_->kind.size(); ++k)
       out.push_back(answer_of({places_->circle_of_kind[k]}, {k}, {}, MatrixXd::Identity(6, 6), omega, heading, from));
     return out;
+  }
+  potential::WaveField field(const potential::FieldQuestion& question, int threads) const override {
+    const PartialWaves waves = waves_at(question.omega);
+    const cylinders::Groups all =
+        groups(places_->circle, places_->kind_of, places_->lattice, waves, solved(question.omega, {question.heading}));
+    const MatrixXd velocity = places_->motion * cylinders::velocities_of(question);
+    const auto there = all.arrived({question.heading}, velocity, cylinders::Equations::automatic);
+    const std::vector<bool> known = cylinders::outside(places_->circle, question.point);
+    return cylinders::field_of(
+        cylinders::potentials_at_surface(places_->circle, waves.modes, waves.channels, all.sent_out(there.a, velocity),
+                                         question.point, known, waves.channels.vertical(), threads),
+        waves.modes, water_, question, known);
   }
 
  private:
@@ -301,9 +314,9 @@ std::unique_ptr<const Discretisation> HullArray::refined() const {
   return std::unique_ptr<const Discretisation>(new HullArray(*this, std::move(finer)));
 }
 
-std::unique_ptr<const Discretisation> HullArray::graded(double highest) const {
+std::unique_ptr<const Discretisation> HullArray::graded(double highest, int gradings) const {
   std::vector<PanelMesh> first;
-  for (const PanelMesh& mesh : mesh_) first.push_back(first_mesh(mesh, water_, highest));
+  for (const PanelMesh& mesh : mesh_) first.push_back(first_mesh(mesh, water_, highest, gradings));
   return std::unique_ptr<const Discretisation>(new HullArray(*this, std::move(first)));
 }
 

@@ -53,7 +53,7 @@ class HullArray : public Discretisation {
 
   std::unique_ptr<const Solver> solver() const override;
   std::unique_ptr<const Discretisation> refined() const override;
-  std::unique_ptr<const Discretisation> graded(double highest) const override;
+  std::unique_ptr<const Discretisation> graded(double highest, int gradings) const override;
   void require_short_panels(double highest) const override;
   Cost cost(const std::vector<double>& omega, std::size_t headings, int threads, int refined) const override;
   bool has_zero() const override { return false; }

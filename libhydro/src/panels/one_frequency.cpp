@@ -109,6 +109,10 @@ Potentials Model::potentials(double K, const MatrixXcd& incident) const {
   return solve_system(open, all_, parts, green, incident);
 }
 
+Potentials Model::in_wave(double omega, double heading) const {
+  return potentials(omega * omega / water_.gravity, incident(omega, waves::wavenumber(omega, water_), {heading}));
+}
+
 OneFrequency Model::at(double omega, const std::vector<double>& heading) const {
   const double K = omega * omega / water_.gravity, k = waves::wavenumber(omega, water_);
   const Potentials phi = potentials(K, incident(omega, k, heading));

@@ -22,6 +22,10 @@ class Model {
   Eigen::MatrixXd points(double K) const;
   /// Of unit motions, and total ones of waves `incident` at points(K).
   Potentials potentials(double K, const Eigen::MatrixXcd& incident) const;
+  /// The same in a wave of unit amplitude.
+  Potentials in_wave(double omega, double heading) const;
+  /// The greatest distance along the water between panels, with room for their corners, m.
+  double reach() const { return reach_; }
   /// L = ∬ φ n dS, row: load on, column: potential at the centres of all panels.
   Eigen::MatrixXcd loads(const Eigen::MatrixXcd& potential) const;
 

@@ -237,19 +237,11 @@ void add_three_points(const Vector3d& a, const Vector3d& b, const Vector3d& c, i
     rule.push_back({p, weight});
 }
 
-bool inside(const std::vector<Segment>& waterline, const Vector2d& p) {
-  bool in = false;
-  for (const auto& [a, b] : waterline)
-    if ((a.y() > p.y()) != (b.y() > p.y()) && p.x() < a.x() + (b.x() - a.x()) * (p.y() - a.y()) / (b.y() - a.y()))
-      in = !in;
-  return in;
-}
-
 void add_squares(const std::vector<Segment>& waterline, const Vector2d& low, double side, int cuts,
                  std::vector<Polygon>& out) {
   int in = 0;
   for (int i = 0; i <= 4; ++i)
-    for (int j = 0; j <= 4; ++j) in += inside(waterline, low + side / 4 * Vector2d(i, j)) ? 1 : 0;
+    for (int j = 0; j <= 4; ++j) in += is_inside(waterline, low + side / 4 * Vector2d(i, j)) ? 1 : 0;
   if (in == 25) {
     const double x = low.x(), y = low.y();
     out.push_back(polygon({{x, y, 0}, {x + side, y, 0}, {x + side, y + side, 0}, {x, y + side, 0}}));
@@ -321,6 +313,14 @@ Panel panel(std::vector<Vector3d> corners, int body, std::vector<bool> edge) {
     for (std::size_t i = 1; i + 1 < c.size(); ++i)
       add_three_points(c[0], c[i], c[i + 1], level - 1, p.rule[static_cast<std::size_t>(level)]);
   return p;
+}
+
+bool is_inside(const std::vector<Segment>& waterline, const Vector2d& p) {
+  bool in = false;
+  for (const auto& [a, b] : waterline)
+    if ((a.y() > p.y()) != (b.y() > p.y()) && p.x() < a.x() + (b.x() - a.x()) * (p.y() - a.y()) / (b.y() - a.y()))
+      in = !in;
+  return in;
 }
 
 std::vector<Polygon> lid_squares(const std::vector<Segment>& waterline, double side) {

@@ -43,6 +43,8 @@ struct PanelMesh {
 PanelMesh panel_mesh(const std::vector<HullBody>& bodies, const WaterDepth& depth, bool lid);
 /// Of all images of the hulls, m².
 double wet_area(const PanelMesh& mesh);
+/// Whether p is inside the closed lines that these pairs of points make.
+bool is_inside(const std::vector<std::array<Eigen::Vector2d, 2>>& waterline, const Eigen::Vector2d& p);
 /// Squares that cover the water inside the closed lines that `waterline` (pairs of points) makes, all but a seam.
 std::vector<Polygon> lid_squares(const std::vector<std::array<Eigen::Vector2d, 2>>& waterline, double side);
 

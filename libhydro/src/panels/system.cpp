@@ -148,6 +148,30 @@ void add_incident(const MatrixXcd& incident, const PanelMesh& mesh, const Signs&
 
 }  // namespace
 
+namespace {
+
+/// rankine(), by the centre alone where P is so far that a few 1e-4 are lost by it.
+Rankine rankine_far_or_near(const Polygon& q, const Vector3d& P) {
+  constexpr double far = 10;  // sizes of the panel
+  const Vector3d way = P - q.centre;
+  const double r = way.norm();
+  if (r < far * q.size) return rankine(q, P);
+  return {q.area / r, q.area * q.normal.dot(way) / (r * r * r)};
+}
+
+}  // namespace
+
+Influence influence(const WaveGreen& green, const WaterDepth& depth, const Panel& panel, const Vector3d& P) {
+  const Rankine direct = rankine_far_or_near(panel.shape, P),
+                image = rankine_far_or_near(panel.shape, mirrored_in_surface(P)),
+                bed = depth.is_infinite() ? Rankine{}
+                                          : rankine_far_or_near(panel.shape, mirrored_in_bed(P, depth.metres()));
+  const WaveIntegrals wave = green.none() ? WaveIntegrals{} : wave_integrals(green, panel, P);
+  const double sign = green.image_sign();
+  return {direct.source + sign * image.source + bed.source + wave.source,
+          direct.dipole + sign * image.dipole + bed.dipole + wave.dipole};
+}
+
 std::vector<Signs> classes_of(const PanelMesh& mesh) {
   const auto& images = mesh.images;
   const bool x = std::any_of(images.begin(), images.end(), [](const Image& i) { return i.x < 0; });

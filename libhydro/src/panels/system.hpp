@@ -35,6 +35,12 @@ struct RankineParts {
 /// dipole holds the image in the bed too.
 RankineParts rankine_parts(const PanelMesh& mesh, const AllPanels& all, const WaterDepth& depth);
 
+/// ∬ G dS and ∬ ∂G/∂n dS of a panel, at a point P in the water or at its surface that is not on the panel.
+struct Influence {
+  std::complex<double> source, dipole;
+};
+Influence influence(const WaveGreen& green, const WaterDepth& depth, const Panel& panel, const Eigen::Vector3d& P);
+
 /// Potentials of unit motions and, total, of unit waves at the centres of all panels.
 struct Potentials {
   Eigen::MatrixXcd motion;  ///< (all, 6N), m²/s per m/s, or per rad/s

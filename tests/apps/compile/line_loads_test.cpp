@@ -1,4 +1,5 @@
 /// Loads over time on nodes of lines and on bodies, and lines that several nodes hold before they are let go.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -108,6 +109,43 @@ std::string sledge(const std::string& load, const std::string& step = "5 ms") {
   return water + "[[body]]\nname = \"s\"\nmass = \"2 kg\"\nradii_of_gyration = \"(1, 1, 1) m\"\nfree = [\"surge\"]\n" +
          "[[load]]\non = \"s\"\nforce = \"(6, 0, 0) N\"\n" + load +
          "[ask]\nrun = { duration = \"4 s\", every = \"0.02 s\" }\n[solve]\nstep = \"" + step + "\"\n";
+}
+
+/// Two bobs in waves of 20 m, half a wave apart.
+std::string in_waves(const std::string& more) {
+  std::string out =
+      water + "[waves]\nkind = \"regular\"\nheight = \"0.4 m\"\nperiod = \"3.58 s\"\nheading = \"0 deg\"\n";
+  for (const int i : {0, 1})
+    out += fmt::format(
+        "[[line]]\nname = \"p{}\"\nfrom = \"({}, 0, -0.5) m\"\nnode_mass = \"20 kg\"\ndiameter = \"0.1 m\"\n"
+        "link = [{{ length = \"1 m\", mass = \"8 kg\" }}]\nmorison = {{ cd = 1.2, ca = 1.0 }}\n{}",
+        i, 10 * i, more);
+  return out + ask;
+}
+
+// λ = 2πg/ω² is 20.0 m: the second bob is in a trough where the first is in a crest, unless both take waves at one
+// place.
+TEST(WavesOfLines, AtOnePlaceMoveLinesAlikeWhereverTheyAre) {
+  const auto apart = simulate(parse(in_waves("")));
+  const auto alike = simulate(parse(in_waves("[line.waves]\nat = \"(0, 0, 0) m\"\n")));
+  double opposite = 0, largest = 0;
+  for (std::size_t i = 0; i < alike.time.size(); ++i) {
+    const double first = alike.signal("p0.node1.x")[i], second = alike.signal("p1.node1.x")[i] - 10;
+    EXPECT_NEAR(first, second, 1e-12);
+    opposite = std::max(opposite, std::abs(apart.signal("p0.node1.x")[i] - (apart.signal("p1.node1.x")[i] - 10)));
+    largest = std::max(largest, std::abs(first));
+  }
+  EXPECT_GT(largest, 0.01);
+  EXPECT_GT(opposite, largest);
+}
+
+TEST(WavesOfLines, AreRefusedWhereNothingTakesThemAndBelowTheBed) {
+  std::string dry = bob("");
+  dry.insert(dry.find("[[line.load]]"), "[line.waves]\nat = \"(0, 0, 0) m\"\n");
+  EXPECT_THAT(refused([&] { parse(dry); }), HasSubstr("nothing of the water acts on it"));
+  std::string below = in_waves("[line.waves]\nat = \"(0, 0, -30) m\"\n");
+  below.replace(below.find("infinite"), 8, "20 m");
+  EXPECT_THAT(refused([&] { simulate(parse(below)); }), HasSubstr("below the bed"));
 }
 
 TEST(BodyLoads, PushASledgeByTheirImpulse) {

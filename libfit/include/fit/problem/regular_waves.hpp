@@ -50,7 +50,4 @@ struct Solution {
 /// \throws hydro::InputError as fit_regular_waves() and prepare_motion(), with the file, and for a problem without runs
 Solution solve(const Problem& problem);
 
-/// Value below which the share `q` of the sorted values lies, straight lines between them; (S3).
-double quantile_of(std::vector<double> values, double q);
-
 }  // namespace fit::regular_waves

@@ -3,6 +3,7 @@
 ///        from what was recorded; (F12)-(F13), (F66), (F90)-(F93), docs/theory/fit.md.
 #include <vector>
 
+#include "fit/box.hpp"
 #include "fit/morison.hpp"
 #include "fit/parts.hpp"
 #include "fit/prepare.hpp"
@@ -45,6 +46,7 @@ struct RecordedTow {
   Stretch steady;           ///< samples of `prepared`
   SteadyMean speed, force;  ///< there, m/s and N
   SteadyMean samples;       ///< of C_D sample by sample: its deviation is that of the source's tables
+  Box box;                  ///< of them
   Coefficient cd;           ///< of the means; `standard_error` counts scatter, zero, hysteresis, and what is the same
                             ///< in all runs, which `systematic_error` is alone
   std::optional<double> re;

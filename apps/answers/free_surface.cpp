@@ -1,0 +1,124 @@
+/// \file  The free surface about bodies in one regular wave: what they scatter, and what their motion radiates.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "answers/answers.hpp"
+#include "answers/provenance.hpp"
+#include "compile/compile.hpp"
+#include "compile/cylinders.hpp"
+#include "compile/hulls.hpp"
+#include "hydro/base/error.hpp"
+
+namespace froude {
+namespace {
+
+using Eigen::Index;
+using hydro::InputError;
+using hydro::potential::FieldQuestion, hydro::potential::WaveField;
+
+/// Bodies whose waves are told. \throws InputError where those of others would be missing
+struct WaveMakers {
+  std::vector<int> cylinders, meshes;
+  std::size_t count() const { return cylinders.size() + meshes.size(); }
+};
+
+WaveMakers wave_makers(const scene::Scene& scene) {
+  for (const scene::Body& body : scene.bodies) {
+    if (!body.hydrodynamics || !body.hydrodynamics->makes_waves()) continue;
+    if (!body.hydrodynamics->cylinders && !body.hydrodynamics->mesh)
+      throw InputError(
+          fmt::format("[ask.field]: the waves of \"{}\" are not known, as its coefficients come from a file",
+                      body.name),
+          body.hydrodynamics->file.place, "give the shape that they are of: `cylinders`, or a `mesh`");
+    if (scene.bodies.size() > 1 && body.hydrodynamics->interaction != scene::Interaction::full)
+      throw InputError(
+          fmt::format("[ask.field]: \"{}\" does not feel the waves of the other bodies, which a field has", body.name),
+          body.hydrodynamics->interaction_place, "leave `interaction` out");
+  }
+  const WaveMakers out{compile::bodies_of_cylinders(scene), compile::bodies_of_meshes(scene)};
+  if (out.count() == 0)
+    throw InputError("[ask.field] asks for the waves about bodies, but no body has [body.hydrodynamics] of its shape",
+                     scene.field->place, "add [body.hydrodynamics] with `cylinders` or a `mesh`");
+  if (!out.cylinders.empty() && !out.meshes.empty())
+    throw InputError("[ask.field]: bodies of cylinders and of meshes do not feel each other's waves, which a field has",
+                     scene.field->place, "give all of them as meshes");
+  return out;
+}
+
+Eigen::MatrixX2d grid_of(const scene::AskField& asked) {
+  Eigen::MatrixX2d out(static_cast<Index>(asked.x.size() * asked.y.size()), 2);
+  Index row = 0;
+  for (const double y : asked.y)
+    for (const double x : asked.x) out.row(row++) = Eigen::RowVector2d(x, y);
+  return out;
+}
+
+/// Motions of these bodies about their origins, from those about the centres of gravity of all.
+Eigen::VectorXcd about_origins(const scene::Scene& scene, const std::vector<int>& bodies, const Eigen::VectorXcd& xi) {
+  Eigen::VectorXcd out(6 * static_cast<Index>(bodies.size()));
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const Eigen::Vector3d& centre = scene.bodies[static_cast<std::size_t>(bodies[i])].centre_of_gravity;
+    out.segment<6>(6 * static_cast<Index>(i)) =
+        hydro::potential::rigid_shift(-centre).cast<std::complex<double>>() * xi.segment<6>(6 * bodies[i]);
+  }
+  return out;
+}
+
+/// Complex values of the grid; NaN where nothing is told.
+ComplexSignal part(const std::string& name, const std::string& meaning, const Eigen::VectorXcd& eta,
+                   const std::vector<bool>& known) {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  ComplexSignal out{name, "m/m", meaning + " per metre of wave amplitude", {}};
+  for (std::size_t p = 0; p < known.size(); ++p)
+    out.values.push_back(known[p] ? eta(static_cast<Index>(p)) : std::complex<double>(none, none));
+  return out;
+}
+
+void require_accuracy(const scene::Scene& scene, double estimate) {
+  const double accepted = std::max(scene.accuracy.value, scene.field->accepted_error);
+  if (estimate <= accepted) return;
+  throw InputError(
+      fmt::format("[ask.field]: the elevation is known to {:.2g} of its largest, and {:.2g} is asked for", estimate,
+                  accepted),
+      scene.field->place,
+      fmt::format("keep the grid off the sides of bodies, where it is worst, or write accepted_error = {:.2g}",
+                  1.1 * estimate));
+}
+
+}  // namespace
+
+FreeSurface free_surface(const scene::Scene& scene, const std::shared_ptr<compile::Kept>& kept) {
+  const scene::AskField& asked = *scene.field;
+  const WaveMakers makers = wave_makers(scene);
+  const std::vector<int>& bodies = makers.meshes.empty() ? makers.cylinders : makers.meshes;
+  FreeSurface out{.omega = asked.omega,
+                  .heading = asked.heading,
+                  .held = asked.held,
+                  .x = asked.x,
+                  .y = asked.y,
+                  .signals = {},
+                  .notes = {},
+                  .provenance = provenance_of(scene)};
+  FieldQuestion question{asked.omega, asked.heading, Eigen::VectorXcd::Zero(6 * static_cast<Index>(bodies.size())),
+                         grid_of(asked)};
+  if (!asked.held) {
+    const compile::Prepared prepared = compile::prepare(scene, kept);
+    out.notes = prepared.notes;
+    question.motion = about_origins(
+        scene, bodies, motions_in_wave(scene, prepared, asked.omega, asked.heading, asked.place, out.notes));
+  }
+  const WaveField field = makers.meshes.empty() ? compile::field_of_cylinders(scene, bodies, question)
+                                                : compile::field_of_hulls(scene, bodies, question);
+  require_accuracy(scene, field.estimate);
+  out.estimate = field.estimate;
+  out.signals = {part("elevation", "free surface", field.total(), field.known),
+                 part("incident", "free surface without bodies", field.incident, field.known),
+                 part("scattered", "what bodies held still add to the free surface", field.scattered, field.known),
+                 part("radiated", "what the motion of bodies adds to the free surface", field.radiated, field.known)};
+  return out;
+}
+
+}  // namespace froude

@@ -1,0 +1,103 @@
+/// \file  `froude field`: the free surface about the bodies of a scene in one regular wave.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "answers/answers.hpp"
+#include "answers/picture.hpp"
+#include "froude/report.hpp"
+#include "froude/scene_result.hpp"
+#include "hydro/base/types.hpp"
+#include "hydro/io/csv.hpp"
+
+namespace froude {
+namespace {
+
+/// A point of the grid and its amplitude.
+struct Extreme {
+  double amplitude, x, y;
+};
+Extreme extreme(const FreeSurface& surface, bool highest) {
+  Extreme out{highest ? -1.0 : std::numeric_limits<double>::infinity(), 0, 0};
+  for (std::size_t p = 0; p < surface.elevation().size(); ++p) {
+    const double amplitude = std::abs(surface.elevation()[p]);
+    if (std::isfinite(amplitude) && (highest ? amplitude > out.amplitude : amplitude < out.amplitude))
+      out = {amplitude, surface.x[p % surface.x.size()], surface.y[p / surface.x.size()]};
+  }
+  return out;
+}
+
+Report report_of(const scene::Scene& scene, const FreeSurface& surface, const Path& file) {
+  const auto told = std::count_if(surface.elevation().begin(), surface.elevation().end(),
+                                  [](const auto& eta) { return std::isfinite(eta.real()); });
+  Report out;
+  out.say("{}: the free surface at {} of {} points, waves of {:.4g} s going to {:.4g} deg, bodies {}",
+          scene.file.filename().string(), fact("points_told", told), fact("points", surface.elevation().size()),
+          fact("period_s", 2 * std::numbers::pi / surface.omega), hydro::Angle::from_radians(surface.heading).degrees(),
+          surface.held ? "held still" : "moving");
+  out.keep("held", surface.held).keep("heading_rad", surface.heading);
+  if (told > 0)
+    for (const bool highest : {true, false}) {
+      const Extreme at = extreme(surface, highest);
+      Report one;
+      one.say("{} {:.4g} m per metre of wave amplitude, at ({:.4g}, {:.4g}) m", highest ? "highest" : "lowest",
+              fact("amplitude", at.amplitude), fact("x_m", at.x), fact("y_m", at.y));
+      out.part(highest ? "highest" : "lowest", std::move(one));
+    }
+  out.say("estimated error {:.2g} of the highest, accuracy asked {:.2g}", fact("error", surface.estimate),
+          fact("asked", scene.accuracy.value));
+  return out.sentences("notes", "note: {}", surface.notes).say("wrote {}", fact("file", file.string()));
+}
+
+void write_csv(const Path& path, const FreeSurface& surface) {
+  std::vector<double> x, y, amplitude, phase;
+  for (std::size_t p = 0; p < surface.elevation().size(); ++p) {
+    const auto& eta = surface.elevation()[p];
+    if (!std::isfinite(eta.real())) continue;
+    x.push_back(surface.x[p % surface.x.size()]);
+    y.push_back(surface.y[p / surface.x.size()]);
+    amplitude.push_back(std::abs(eta));
+    phase.push_back(std::arg(eta));
+  }
+  hydro::io::write_csv(path,
+                       {{"x", "m", &x}, {"y", "m", &y}, {"amplitude", "m/m", &amplitude}, {"phase", "rad", &phase}},
+                       {"points in bodies, and where nothing is told, have no row"});
+}
+
+/// Of each point of the grid one number.
+template <class Number>
+plot::Panel panel(const FreeSurface& surface, const std::string& label, const Number& number) {
+  plot::Field field{.value = {label, "m/m"}, .xs = surface.x, .ys = surface.y, .values = {}};
+  for (std::size_t j = 0; j < surface.y.size(); ++j) {
+    field.values.emplace_back();
+    for (std::size_t i = 0; i < surface.x.size(); ++i)
+      field.values.back().push_back(number(surface.elevation()[j * surface.x.size() + i]));
+  }
+  return {.x = {"x", "m"}, .y = {"y", "m"}, .series = {}, .field = std::move(field), .equal_scales = true};
+}
+
+plot::Figure figure(const scene::Scene& scene, const FreeSurface& surface) {
+  plot::Figure out{.title = scene.title.empty() ? "Free surface" : scene.title, .panels = {}};
+  out.panels.push_back(panel(surface, "amplitude", [](const auto& eta) { return std::abs(eta); }));
+  out.panels.push_back(panel(surface, "elevation at t = 0", [](const auto& eta) { return eta.real(); }));
+  out.panel_height = 560;
+  return out;
+}
+
+}  // namespace
+
+void field(const SceneArguments& arguments, const Console& console) {
+  const scene::Scene scene = scene::read(arguments.scene);
+  require_asked(scene.field.has_value(), scene, "field",
+                "field = { period = \"4 s\", x = \"-30 m .. 30 m, 61 values\", y = \"-30 m .. 30 m, 61 values\" }");
+  const Path file = checked_output(arguments, ".field.h5");
+  const FreeSurface surface = free_surface(scene);
+  surface.write(file);
+  if (arguments.csv) write_csv(*arguments.csv, surface);
+  if (arguments.picture) plot::write_picture(*arguments.picture, figure(scene, surface));
+  tell(report_of(scene, surface, file), console);
+}
+
+}  // namespace froude

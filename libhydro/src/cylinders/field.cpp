@@ -1,0 +1,112 @@
+#include "hydro/cylinders/field.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "deep.hpp"
+#include "hydro/base/parallel.hpp"
+#include "hydro/waves/dispersion.hpp"
+#include "model.hpp"
+#include "request.hpp"
+#include "surface.hpp"
+
+namespace hydro::cylinders {
+namespace {
+
+/// The orders of a wave that cylinders of this radius scatter by more than `least` of it: J_m(ka) < (ka/2)^m/m!.
+int orders_scattered(double ka, double least) {
+  int m = 1;
+  for (double bound = ka / 2; bound > least; bound *= ka / 2 / m) ++m;
+  return m;
+}
+
+/// Functions of small arguments would overflow not far beyond.
+constexpr int most_evanescent_orders = 24;
+
+/// Vertical modes that are told at a point so near to a cylinder.
+int modes_near(const VerticalModes& modes, const Channels& passing, double nearest) {
+  constexpr double weakest = 9;       // e⁻⁹, 1e-4: of a mode that is itself a small part
+  constexpr double most_waves = 600;  // of a cylinder: its matrix has the square of it
+  const double reach = nearest > 0 ? weakest / nearest * modes.depth / std::numbers::pi : most_waves;
+  const double room = most_waves / (2 * passing.highest_order() + 1);
+  const int wanted = 1 + static_cast<int>(std::min(std::ceil(reach), room));
+  return std::max(passing.vertical(), std::min(wanted, static_cast<int>(modes.kappa.size())));
+}
+
+/// `a` in the channels of `to`, which are more.
+Amplitudes widened(const Amplitudes& a, const Channels& from, const Channels& to, std::size_t cylinders) {
+  const WaveIndex source(from), target(to);
+  Amplitudes out = Amplitudes::Zero(to.count() * static_cast<Eigen::Index>(cylinders), a.cols());
+  for (std::size_t c = 0; c < cylinders; ++c)
+    for (int n = 0; n < from.vertical(); ++n)
+      for (int m = -from.order[static_cast<std::size_t>(n)]; m <= from.order[static_cast<std::size_t>(n)]; ++m)
+        out.row(target(c, n, m)) = a.row(source(c, n, m));
+  return out;
+}
+
+}  // namespace
+
+// Each cylinder is a group by itself, so that it tells, of what arrives, as many of the waves that it sends out as are
+// wanted, whatever passes between them.
+SentOut Model::sent_out(double omega, double heading, const Eigen::MatrixXd& velocity, double nearest) const {
+  const VerticalModes depth_modes = modes(omega);
+  Grouping alone{
+      {},
+      {},
+      coupled_channels(cylinders_, depth_modes, resolution_.threshold, [](std::size_t, std::size_t) { return true; }),
+      expected_steps(depth_modes, cylinders_),
+      0};
+  for (std::size_t c = 0; c < cylinders_.size(); ++c) alone.members.push_back({c});
+  alone.between.order[0] = std::max(alone.between.order[0], resolution_.orders - 1);
+  alone.within = alone.between;
+  require_coupling(alone.within, "cylinders", omega);
+  const Eigen::MatrixXd moved = motion_ * velocity;
+  const auto of_type = scatterers(depth_modes, alone.within);
+  const Arrived there = groups(of_type, depth_modes, alone).arrived({heading}, moved, resolution_.equations);
+  Grouping told = alone;
+  const int highest = alone.between.highest_order();
+  told.between.order.resize(static_cast<std::size_t>(modes_near(depth_modes, alone.between, nearest)),
+                            std::min(most_evanescent_orders, highest));
+  std::fill(told.between.order.begin() + 1, told.between.order.end(), std::min(most_evanescent_orders, highest));
+  told.within = told.between;
+  const auto near_type = scatterers(depth_modes, told.within);
+  const Groups near = groups(near_type, depth_modes, told);
+  return {depth_modes, told.between,
+          near.sent_out(widened(there.a, alone.between, told.between, cylinders_.size()), moved)};
+}
+
+potential::WaveField wave_field(const std::vector<CylinderBody>& bodies, const Water& water,
+                                const potential::FieldQuestion& question, const Options& options) {
+  check(bodies, water.depth);
+  check_request({question.omega}, {question.heading}, options);
+  potential::check(question, bodies.size());
+  const std::vector<double> omega{question.omega};
+  const Water here = effective_water(bodies, water, question.omega);
+  const double threshold = share_of_tolerance * options.tolerance;
+  double largest = 0;
+  for (const CylinderBody& body : bodies)
+    for (const Cylinder& c : body.cylinders) largest = std::max(largest, c.radius);
+  const int orders = orders_scattered(waves::wavenumber(question.omega, here) * largest, threshold);
+  const Model model(
+      bodies, here,
+      {choose_gap_functions(bodies, water, omega, options.tolerance), threshold, options.equations, orders + 1}, omega);
+  const std::vector<bool> known = outside(model.cylinders(), question.point);
+  const SentOut sent = model.sent_out(question.omega, question.heading, velocities_of(question),
+                                      nearest_outside(model.cylinders(), question.point));
+  const int threads = options.threads > 0 ? options.threads : all_processors();
+  const auto with_modes = [&](int vertical) {
+    return field_of(potentials_at_surface(model.cylinders(), sent.modes, sent.channels, sent.amplitude, question.point,
+                                          known, vertical, threads),
+                    sent.modes, water, question, known);
+  };
+  // b_n Z_n(0) falls as n^{−5/3} at the side of a cylinder, by the corner below: what is beyond N modes is six times
+  // what the last fifth of them adds, and less where they decay on the way to a point.
+  constexpr double beyond_last_fifth = 6;
+  const int vertical = sent.channels.vertical();
+  potential::WaveField out = with_modes(vertical);
+  out.estimate = options.tolerance + beyond_last_fifth * difference(with_modes(vertical - (vertical + 4) / 5), out);
+  return out;
+}
+
+}  // namespace hydro::cylinders

@@ -1,0 +1,25 @@
+#include "hydro/panels/field.hpp"
+
+#include "discretisation.hpp"
+#include "hydro/base/parallel.hpp"
+#include "request.hpp"
+
+namespace hydro::panels {
+
+potential::WaveField wave_field(const std::vector<HullBody>& bodies, const Water& water,
+                                const potential::FieldQuestion& question, const Options& options) {
+  check_request({question.omega}, {question.heading}, options);
+  const auto given = discretised(bodies, water, {question.omega}, 1, options);
+  potential::check(question, bodies.size());
+  const int threads = options.threads > 0 ? options.threads : all_processors();
+  // Away from hulls the surface does not see how fine their edges are.
+  const auto coarse = given->graded(question.omega, 0);
+  const potential::WaveField before = coarse->solver()->field(question, threads);
+  potential::WaveField out = coarse->refined()->solver()->field(question, threads);
+  out.estimate = difference(before, out);
+  if (const auto more = coarse->with_more_partial_waves())
+    out.estimate += difference(before, more->field(question, threads));
+  return out;
+}
+
+}  // namespace hydro::panels

@@ -1,0 +1,89 @@
+#include "surface.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "hydro/base/parallel.hpp"
+#include "hydro/waves/dispersion.hpp"
+
+namespace hydro::panels {
+namespace {
+
+using Complex = std::complex<double>;
+using Eigen::Index;
+using Eigen::Vector3d;
+using std::numbers::pi;
+
+/// Potentials and velocities along the normals on all panels: what Green's theorem needs of one motion of the water.
+struct OnPanels {
+  Eigen::VectorXcd potential, velocity;
+};
+
+/// 4π φ at a point of the surface, of two motions: the waves that hulls held still add, and those they make.
+std::array<Complex, 2> by_greens_theorem(const PanelMesh& mesh, const WaterDepth& depth, const WaveGreen& green,
+                                         const OnPanels& scattered, const OnPanels& radiated, const Vector3d& P) {
+  std::array<Complex, 2> sum{};
+  const auto panels = static_cast<Index>(mesh.hull.size());
+  for (std::size_t s = 0; s < mesh.images.size(); ++s) {
+    const Vector3d from = mesh.images[s] * P;
+    for (Index j = 0; j < panels; ++j) {
+      const Influence of = influence(green, depth, mesh.hull[static_cast<std::size_t>(j)], from);
+      const Index row = static_cast<Index>(s) * panels + j;
+      sum[0] += of.dipole * scattered.potential(row) - of.source * scattered.velocity(row);
+      sum[1] += of.dipole * radiated.potential(row) - of.source * radiated.velocity(row);
+    }
+  }
+  return sum;
+}
+
+}  // namespace
+
+std::vector<bool> outside(const PanelMesh& mesh, const Eigen::MatrixX2d& point) {
+  std::vector<std::array<Eigen::Vector2d, 2>> waterline;
+  for (const Image& image : mesh.images)
+    for (const Panel& panel : mesh.hull)
+      for (std::size_t i = 0; i < panel.shape.corners.size(); ++i) {
+        const Vector3d a = image * panel.shape.corners[i],
+                       b = image * panel.shape.corners[(i + 1) % panel.shape.corners.size()];
+        if (a.z() == 0 && b.z() == 0) waterline.push_back({a.head<2>(), b.head<2>()});
+      }
+  std::vector<bool> out;
+  for (Index p = 0; p < point.rows(); ++p) out.push_back(!is_inside(waterline, point.row(p)));
+  return out;
+}
+
+// Of the waves that a hull held still adds, the whole potential with no velocity serves as well as its own part: the
+// incident wave is regular inside the hull, so that its own integral is nothing outside.
+potential::WaveField field_of(const Model& model, const Water& water, const potential::FieldQuestion& question,
+                              int threads) {
+  const double k = waves::wavenumber(question.omega, water), K = question.omega * question.omega / water.gravity;
+  const PanelMesh& mesh = model.mesh();
+  const Potentials phi = model.in_wave(question.omega, question.heading);
+  const Eigen::VectorXcd velocity = Complex(0, question.omega) * question.motion;
+  const OnPanels scattered{phi.wave.col(0), Eigen::VectorXcd::Zero(phi.wave.rows())},
+      radiated{phi.motion * velocity, model.all().normal * velocity};
+  double reach = 0;
+  for (Index p = 0; p < question.point.rows(); ++p)
+    reach = std::max(reach,
+                     (model.all().point.leftCols<2>().rowwise() - question.point.row(p)).rowwise().norm().maxCoeff());
+  const WaveGreen green(K, water.depth, model.reach() + reach);
+  const auto points = question.point.rows();
+  potential::WaveField out{.incident = potential::incident_elevation(question.point, k, question.heading),
+                           .scattered = Eigen::VectorXcd::Zero(points),
+                           .radiated = Eigen::VectorXcd::Zero(points),
+                           .known = outside(mesh, question.point)};
+  const Complex elevation = Complex(0, -question.omega / water.gravity) / (4 * pi);
+  in_parallel(out.known.size(), threads, [&](std::size_t i) {
+    if (!out.known[i]) return;
+    const auto p = static_cast<Index>(i);
+    const auto four_pi_phi = by_greens_theorem(mesh, water.depth, green, scattered, radiated,
+                                               {question.point(p, 0), question.point(p, 1), 0});
+    out.scattered(p) = elevation * four_pi_phi[0];
+    out.radiated(p) = elevation * four_pi_phi[1];
+  });
+  return out;
+}
+
+}  // namespace hydro::panels
