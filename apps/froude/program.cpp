@@ -141,7 +141,7 @@ void add_waves(CLI::App& app, Request& request) {
   waves->require_subcommand(1);
   auto* info = waves->add_subcommand("info", "heights, periods, steepness, breaking and focus of a sea");
   info->footer(
-      "Examples:\n  froude waves info examples/storm.toml\n  froude waves info components.csv --depth \"30 m\"\n"
+      "Examples:\n  froude waves info examples/waves/storm.toml\n  froude waves info components.csv --depth \"30 m\"\n"
       "  froude waves info record.csv --column gauge1");
   auto arguments = std::make_shared<WavesInfoArguments>();
   auto depth = std::make_shared<std::string>("infinite"), gravity = std::make_shared<std::string>("9.81 m/s^2");
@@ -167,7 +167,8 @@ void add_waves(CLI::App& app, Request& request) {
     };
   });
   add_scene_command(*waves, request, "make", "time series of the water at the probes of a scene", &waves_make, true)
-      ->footer("Example:\n  froude waves make examples/storm.toml -o storm.h5 --csv storm.csv --picture storm.svg");
+      ->footer(
+          "Example:\n  froude waves make examples/waves/storm.toml -o storm.h5 --csv storm.csv --picture storm.svg");
 }
 
 /// Options of `froude hydrostatics` as they were written.

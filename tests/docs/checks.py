@@ -427,6 +427,14 @@ NO_EXAMPLE = re.compile(r"(make_\w+|made_files)\.py|lens\.toml")
 INDEX = Path("docs", "examples.md")
 
 
+def examples_in_help(root):
+    """Examples that the help of the programs names, but for what a command there writes, with their places."""
+    for path in files_below(root, ["apps"], {".cpp"}):
+        for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
+            for name in re.findall(r"(?<!-o )\bexamples/[\w/]+\.toml", line):
+                yield path, number, name
+
+
 def check_examples(root):
     """docs/examples.md has each example: a scene or a study under a heading with its command, time and picture, a program in a row."""
     text = (root / INDEX).read_text(encoding="utf-8")
@@ -441,6 +449,8 @@ def check_examples(root):
         wanted = {"a command that names it": rf"^    froude .*examples/{re.escape(target)}\b", "its time": r"^Takes .*\d (s|min)\.$",
                   "a picture": r"^!\[[^\]]+\]\(pictures/examples/"}
         complaints += [f"{place}: {name} has not {what}" for what, pattern in wanted.items() if not re.search(pattern, section, re.MULTILINE)]
+    complaints += [f"{path.relative_to(root)}:{number}: {name} is no example" for path, number, name in examples_in_help(root)
+                   if not (root / name).exists()]
     return complaints
 
 

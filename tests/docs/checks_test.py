@@ -236,6 +236,11 @@ class Examples(ChecksCase):
             with self.subTest(word=word):
                 self.refuses("examples", self.FILES | {"docs/examples.md": self.SECTION.replace(old, new)}, "docs/examples.md:3", word)
 
+    def test_refuse_help_that_names_none(self):
+        written = '"froude cost examples/a.toml -o examples/b.toml"\n'
+        self.accepts("examples", self.FILES | {"apps/help.cpp": written})
+        self.refuses("examples", self.FILES | {"apps/help.cpp": written + '"froude run examples/c.toml"\n'}, "apps/help.cpp:2", "no example")
+
 
 class Words(ChecksCase):
     def test_refuses_strangers_with_file_line_and_term(self):

@@ -80,7 +80,7 @@ void add_calibrate(CLI::App& app, Request& request) {
 
 void add_film(CLI::App& app, Request& request) {
   auto* command = app.add_subcommand("film", "a film of a run, whose truth is known");
-  command->footer("Example:\n  froude film examples/film/pendulums_film.toml -o film.avi --truth truth.csv");
+  command->footer("Example:\n  froude film examples/film/film.toml -o film.avi --truth truth.csv");
   auto a = std::make_shared<FilmArguments>();
   command->add_option("scene", a->scene, "scene of a film (.toml)")->required();
   command->add_option("-o,--output", a->output, "the film: .avi or .mkv without loss, or .mp4")->required();
