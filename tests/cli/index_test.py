@@ -19,6 +19,8 @@ FROUDE, SOURCE = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
 HAS_FILMS = (FROUDE.parent / "froude-film").exists()
 OTHERS_RUN = {"hull.toml", "row.toml"}  # half a minute each, and cli.examples answers them
 PLANNED = {"sweep/rows.toml", "sweep/tongue.toml"}  # hundreds of runs: that their cases can be made is enough here
+# What one of these writes another reads: all are followed, or none.
+TOGETHER = ({"fit/swings.toml", "fit/held_back.toml"},)
 NEEDS_FILMS = {"film/film.toml", "film/fit.toml", "film/arms_film.toml", "film/arms_fit.toml", "film/tags.toml"}
 
 
@@ -27,6 +29,8 @@ def by_lot(examples):
     parts = int(os.environ.get("FROUDE_FOLLOWED", "1"))
     head = subprocess.run(["git", "-C", str(SOURCE), "rev-parse", "HEAD"], capture_output=True, text=True, check=False).stdout.strip()
     drawn = {name for name in examples if int(hashlib.sha256((head + name).encode()).hexdigest(), 16) % parts == 0}
+    for group in (*TOGETHER, NEEDS_FILMS):
+        drawn |= group if group & drawn else set()
     return set(examples) if parts == 1 or not head else drawn
 
 
