@@ -25,11 +25,12 @@ bool has_drag_of_sea(const scene::Scene& scene, const compile::Prepared& prepare
 
 dynamics::frequency::SeaDrag sea_drag(const scene::Scene& scene, const compile::Prepared& prepared,
                                       const std::vector<System>& systems, const std::vector<double>& omega,
-                                      const Eigen::VectorXd& start) {
+                                      const Eigen::VectorXd& start, const std::vector<Eigen::Matrix3d>& slow) {
   dynamics::frequency::DragSea sea{.water = scene.water,
                                    .heading = scene.rao->headings,
                                    .variance = Eigen::MatrixXd::Zero(static_cast<Index>(scene.rao->headings.size()),
-                                                                     static_cast<Index>(omega.size()))};
+                                                                     static_cast<Index>(omega.size())),
+                                   .slow = slow};
   for (const System& system : systems)
     for (std::size_t w = 0; w < omega.size(); ++w)
       for (const Direction& d : system.directions)

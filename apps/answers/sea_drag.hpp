@@ -27,10 +27,11 @@ struct DragInSea {
 bool has_drag_of_sea(const scene::Scene& scene, const compile::Prepared& prepared);
 
 /// Of wave systems whose directions are headings of the scene's [ask.rao], by the trapezium rule over `omega`, rad/s.
-/// `start`: coefficients of a neighbouring question, or none. \throws hydro::NumericsError where drag does not settle
+/// `start`: coefficients of a neighbouring question, or none. `slow`: covariances of further velocities, one a piece,
+/// or none. \throws hydro::NumericsError where drag does not settle
 dynamics::frequency::SeaDrag sea_drag(const scene::Scene& scene, const compile::Prepared& prepared,
                                       const std::vector<System>& systems, const std::vector<double>& omega,
-                                      const Eigen::VectorXd& start);
+                                      const Eigen::VectorXd& start, const std::vector<Eigen::Matrix3d>& slow = {});
 
 DragInSea by_member(const scene::Scene& scene, const compile::Prepared& prepared,
                     const dynamics::frequency::SeaDrag& found);

@@ -8,8 +8,10 @@
 
 #include "answers/refined_densities.hpp"
 #include "answers/sea_directions.hpp"
+#include "answers/sea_drag.hpp"
 #include "answers/second_order_loads.hpp"
 #include "compile/compile.hpp"
+#include "compile/members.hpp"
 #include "compile/signal_list.hpp"
 #include "dynamics/frequency/amplitudes.hpp"
 #include "dynamics/frequency/modes.hpp"
@@ -19,7 +21,7 @@
 namespace froude {
 namespace {
 
-using dynamics::frequency::SmallMotions;
+using dynamics::frequency::LinearDrag, dynamics::frequency::SmallMotions;
 using Pairs = SecondOrderLoads::Pairs;
 using Eigen::Index;
 
@@ -27,8 +29,8 @@ using Eigen::Index;
 class Transfer {
  public:
   Transfer(const SmallMotions& about, const compile::Prepared& prepared, const std::vector<compile::Signal>& signals,
-           std::vector<int> modes)
-      : about_(about), groups_(prepared.groups), modes_(std::move(modes)) {
+           std::vector<int> modes, const LinearDrag* drag)
+      : about_(about), groups_(prepared.groups), modes_(std::move(modes)), drag_(drag) {
     const dynamics::Still still(about.still, about.linear.multipliers);
     for (const auto& s : signals) {
       variations_.push_back(s.variation(still));
@@ -38,7 +40,7 @@ class Transfer {
 
   /// (signals, loads)
   Eigen::MatrixXcd at(double omega) const {
-    const auto found = answers_to_loads(about_, groups_, {omega}, modes_);
+    const auto found = answers_to_loads(about_, groups_, {omega}, modes_, drag_);
     Eigen::MatrixXcd out(static_cast<Index>(variations_.size()), static_cast<Index>(modes_.size()));
     for (Index s = 0; s < out.rows(); ++s)
       for (Index m = 0; m < out.cols(); ++m) {
@@ -53,6 +55,7 @@ class Transfer {
   const SmallMotions& about_;
   const std::vector<dynamics::frequency::PotentialGroup>& groups_;
   std::vector<int> modes_;
+  const LinearDrag* drag_;
   std::vector<dynamics::Variation> variations_;
 };
 
@@ -139,7 +142,15 @@ struct Found {
       }
     return out;
   }
-  double error() const { return std::max(slow ? slow->error() : 0, sum ? sum->error() : 0); }
+  double error() const { return std::max(slow ? slow->error() : 0, sum ? sum->error() : 0) + error_of_drag; }
+  /// Of the last rows of both.
+  Eigen::VectorXd last_variances(Index count) const {
+    Eigen::VectorXd out = Eigen::VectorXd::Zero(count);
+    for (const auto* part : {&slow, &sum})
+      if (*part) out += (*part)->moment(0).tail(count);
+    return out;
+  }
+  double error_of_drag = 0;  ///< relative, of the coefficients
 };
 
 /// A scene made ready, and what of it does not depend on the sectors.
@@ -148,11 +159,13 @@ struct Question {
   const compile::Prepared& prepared;
   const SmallMotions& about;
   const std::vector<compile::Signal>& signals;
+  const std::vector<double>& first_order;  ///< frequencies, rad/s
 };
 
-Found found_with(const Question& q, int sectors, std::vector<std::string>& notes) {
-  const SecondOrderLoads loads(q.scene, q.prepared.bodies, rays_of(random_sea(q.scene), sectors), notes);
-  const Transfer transfer(q.about, q.prepared, q.signals, loads.modes());
+/// The answers to these loads, with this drag or none.
+Found answers_to(const SecondOrderLoads& loads, const Question& q, const LinearDrag* drag,
+                 std::vector<std::string>& notes) {
+  const Transfer transfer(q.about, q.prepared, q.signals, loads.modes(), drag);
   const double accuracy = q.scene.accuracy;
   Found out;
   out.offset = transfer.at(0).real() * loads.mean(accuracy / 4);
@@ -164,6 +177,71 @@ Found found_with(const Question& q, int sectors, std::vector<std::string>& notes
                             first_frequencies(loads.lowest(pairs), end, q.about, q.prepared), accuracy);
     }
   return out;
+}
+
+/// Drag on members, linear in a sea and what its second-order loads make of motions. (D151)
+class DragOfBoth {
+ public:
+  DragOfBoth(const Question& q, int sectors)
+      : q_(q), scene_(q.scene), pieces_(compile::drag_of_responses(q.scene, q.prepared.bodies).pieces) {
+    scene_.rao->headings.clear();
+    for (const auto& waves : random_sea(q.scene).systems)
+      systems_.push_back(system_of(waves, sectors, scene_.rao->headings));
+  }
+
+  /// Slower motions have less drag, which makes them faster: turns come nearer by half at least.
+  Found settled(const SecondOrderLoads& loads, std::vector<std::string>& notes) const {
+    constexpr int most = 40;
+    const double enough = q_.scene.accuracy / 10;  // of the largest coefficient, on which deviations depend by a root
+    std::vector<compile::Signal> signals = q_.signals;
+    for (const dynamics::Variation& v : velocities_across(q_.about, pieces_))
+      signals.push_back(
+          {.name = {}, .unit = "m/s of drag", .meaning = {}, .value = {}, .variation = [v](const auto&) { return v; }});
+    const Question with_velocities{q_.scene, q_.prepared, q_.about, signals, q_.first_order};
+    const Eigen::VectorXd by_waves = coefficients({}, {});
+    Eigen::VectorXd drag = by_waves;
+    double change = 0;
+    for (int turn = 1; turn <= most; ++turn) {
+      std::vector<std::string> told;
+      const LinearDrag linear = still_water_drag(drag, q_.about, pieces_);
+      Found found = answers_to(loads, with_velocities, &linear, told);
+      const auto slow = covariances_across(q_.about, pieces_, found.last_variances(3 * std::ssize(pieces_)));
+      const Eigen::VectorXd next = coefficients(drag, slow);
+      change = (next - drag).lpNorm<Eigen::Infinity>() / next.lpNorm<Eigen::Infinity>();
+      if (change <= enough) {
+        notes.insert(notes.end(), told.begin(), told.end());
+        notes.push_back(told_of(by_waves.sum(), drag.sum(), turn));
+        found.error_of_drag = change;
+        return found;
+      }
+      drag = next;
+    }
+    throw hydro::NumericsError(fmt::format(
+        "drag in slow drift did not settle in {} turns: the last would have changed it by {:.2g} of its largest", most,
+        change));
+  }
+
+ private:
+  Eigen::VectorXd coefficients(const Eigen::VectorXd& start, const std::vector<Eigen::Matrix3d>& slow) const {
+    return sea_drag(scene_, q_.prepared, systems_, q_.first_order, start, slow).coefficient;
+  }
+  static std::string told_of(double by_waves, double all, int turns) {
+    return fmt::format(
+        "drag on members damps slow drift: {:.4g} N s/m in all, linear for the velocities of waves, slow drift and "
+        "sums together, {:.4g} N s/m for those of waves alone; settled in {} turns",
+        all, by_waves, turns);
+  }
+
+  const Question& q_;
+  scene::Scene scene_;  // asked for the headings of the sea
+  std::vector<dynamics::DragPiece> pieces_;
+  std::vector<System> systems_;
+};
+
+Found found_with(const Question& q, int sectors, std::vector<std::string>& notes) {
+  const SecondOrderLoads loads(q.scene, q.prepared.bodies, rays_of(random_sea(q.scene), sectors), notes);
+  if (!has_drag_of_sea(q.scene, q.prepared)) return answers_to(loads, q, nullptr, notes);
+  return DragOfBoth(q, sectors).settled(loads, notes);
 }
 
 /// Sectors of a spread sea are doubled until nothing changes by half of the accuracy; `error` is told what does.
@@ -186,15 +264,16 @@ Found found_of(const Question& q, double& error, std::vector<std::string>& notes
 }
 
 /// What answers of this kind suppose.
-void tell_limits(const compile::Prepared& prepared, std::vector<std::string>& notes) {
+void tell_limits(const scene::Scene& scene, const compile::Prepared& prepared, std::vector<std::string>& notes) {
   for (const auto& g : prepared.groups)
     if (g.radiation)
       notes.push_back(fmt::format(
           "below {:.4g} rad/s, where coefficients begin, slow drift has {}, and damping straight to none",
           g.table.lowest(), g.table.coefficients().A_zero ? "added mass straight to A(0)" : "their first added mass"));
-  notes.emplace_back(
-      "offset and slow drift go through stiffness and linear damping about rest: drag, wave-drift damping and moorings "
-      "that stiffen have no part");
+  notes.push_back(fmt::format(
+      "offset and slow drift go through stiffness and linear damping about rest: {}wave-drift damping and moorings "
+      "that stiffen have no part",
+      compile::any_drag(scene) && !has_drag_of_sea(scene, prepared) ? "drag in a current, " : ""));
   notes.emplace_back(
       "responses of second order are not Gaussian, and their sum with the first is not: largest values and damage are "
       "of the first order alone; for those of all, step a run and ask `froude extremes`");
@@ -203,7 +282,8 @@ void tell_limits(const compile::Prepared& prepared, std::vector<std::string>& no
 }  // namespace
 
 std::optional<SecondOrderResponses> second_order_responses(const scene::Scene& scene,
-                                                           const std::shared_ptr<compile::Kept>& kept) {
+                                                           const std::shared_ptr<compile::Kept>& kept,
+                                                           const std::vector<double>& first_order) {
   if (std::none_of(scene.bodies.begin(), scene.bodies.end(), [](const auto& b) { return b.second_order; }))
     return std::nullopt;
   SecondOrderResponses out;
@@ -213,7 +293,8 @@ std::optional<SecondOrderResponses> second_order_responses(const scene::Scene& s
   const SmallMotions about = compile::small_motions(scene, model, scene.rao->about, told_already);
   const auto signals = compile::chosen_responses(compile::signal_list(scene, prepared, model), scene.rao->of,
                                                  scene.rao->of_places, told_already);
-  const Found found = found_of({scene, prepared, about, signals}, out.error, out.notes);
+  const std::vector<double>& resolved = first_order.empty() ? scene.rao->omega : first_order;
+  const Found found = found_of({scene, prepared, about, signals, resolved}, out.error, out.notes);
   out.error += found.error();
   for (std::size_t s = 0; s < signals.size(); ++s) {
     const auto row = static_cast<Index>(s);
@@ -221,7 +302,7 @@ std::optional<SecondOrderResponses> second_order_responses(const scene::Scene& s
                            found.slow ? found.slow->spectrum(row) : hydro::signal::SpectrumPerHz{},
                            found.sum ? found.sum->spectrum(row) : hydro::signal::SpectrumPerHz{}});
   }
-  tell_limits(prepared, out.notes);
+  tell_limits(scene, prepared, out.notes);
   return out;
 }
 

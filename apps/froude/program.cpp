@@ -311,7 +311,8 @@ void add_snapshot(CLI::App& app, Request& request) {
   auto arguments = std::make_shared<SnapshotArguments>();
   command->add_option("file", arguments->file, "result of `froude run`, with the places of all nodes")->required();
   command->add_option("--line", arguments->lines, "the name of a line; as often as there are lines to show");
-  command->add_option("--body", arguments->bodies, "the name of a body, whose members are shown");
+  command->add_option("--body", arguments->bodies,
+                      "the name of a body, whose members are shown; \"m*\": all that are called so");
   command->add_option("--at", arguments->at, "an instant: \"4 s\", of which the nearest sample is shown")->required();
   command->add_option("--plane", arguments->planes, "what goes along the picture and up it; one picture below another")
       ->check(CLI::IsMember({"xz", "yz", "xy", "yx", "zx", "zy"}))

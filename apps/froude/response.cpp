@@ -1,6 +1,7 @@
 // `froude response`: spectra of responses in the sea of a scene, and over a scatter diagram.
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 
 #include "answers/picture.hpp"
@@ -532,7 +533,9 @@ void response(const ResponseArguments& arguments, const Console& console) {
   const auto kept = std::make_shared<compile::Kept>();  // coefficients are read or computed once
   const ResponseSpectra found = response_spectra({&scene}, kept).front();
   if (asked.sn) require_one_fits(*asked.sn, units_of(found));
-  const std::optional<SecondOrderResponses> more = second_order_responses(scene, kept);
+  std::vector<double> resolved;
+  for (const double f : found.sea.frequency_hz) resolved.push_back(2 * std::numbers::pi * f);
+  const std::optional<SecondOrderResponses> more = second_order_responses(scene, kept, resolved);
   const SecondOrderResponses* second = more ? &*more : nullptr;
   Report report = scene::placed({.file = "--duration"}, [&] { return report_of(scene, found, second, asked); });
   if (!arguments.check.empty()) {

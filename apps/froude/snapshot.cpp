@@ -1,4 +1,6 @@
 // `froude snapshot`: where lines and members of bodies are at chosen instants of a run.
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -109,16 +111,55 @@ Chain line_in(const RunResult& record, const RunSettings& settings, const std::s
   return out;
 }
 
+/// A body where the scene places it.
+struct PlacedBody {
+  std::string name, table;  ///< "m3" of "body[1]"
+  Vector3d at;              ///< m
+};
+
+/// Copies are m1, m2, …, in a grid m1_1, m1_2, ….
+std::vector<PlacedBody> bodies_of(const RunSettings& settings) {
+  const auto vector = [&](const std::string& key) { return hydro::parse_vector(settings.of(key), hydro::dim::length); };
+  std::vector<PlacedBody> out;
+  for (int b = 1; settings.has(fmt::format("body[{}].name", b)); ++b) {
+    const std::string table = fmt::format("body[{}]", b), family = settings.of(table + ".name");
+    const Vector3d first = vector(table + ".position");
+    if (!settings.has(table + ".copies.count")) {
+      out.push_back({family, table, first});
+      continue;
+    }
+    const bool grid = settings.has(table + ".copies.rows");
+    const int count = std::stoi(settings.of(table + ".copies.count")),
+              rows = grid ? std::stoi(settings.of(table + ".copies.rows")) : 1;
+    const Vector3d step = vector(table + ".copies.step"),
+                   row_step = grid ? vector(table + ".copies.row_step") : Vector3d::Zero();
+    for (int row = 1; row <= rows; ++row)
+      for (int i = 1; i <= count; ++i)
+        out.push_back({grid ? fmt::format("{}{}_{}", family, row, i) : fmt::format("{}{}", family, i), table,
+                       first + (i - 1) * step + (row - 1) * row_step});
+  }
+  return out;
+}
+
+/// Those that a name or a pattern means. \throws InputError where there is none
+std::vector<PlacedBody> bodies_named(const std::string& pattern, const RunSettings& settings, const Path& file) {
+  std::vector<PlacedBody> out = bodies_of(settings);
+  std::vector<std::string> names;
+  for (const PlacedBody& body : out) names.push_back(body.name);
+  std::erase_if(out, [&](const PlacedBody& body) { return !scene::matches(pattern, body.name); });
+  if (out.empty())
+    throw InputError(fmt::format("the scene of this result has no body \"{}\"", pattern), {.file = file.string()},
+                     names.empty() ? "show lines, --line" : fmt::format("bodies are: {}", fmt::join(names, ", ")));
+  return out;
+}
+
 /// Where a point of a body is, by the motions that the run keeps; modes that are not free stay at rest.
 class BodyMotion {
  public:
-  BodyMotion(const RunResult& record, const RunSettings& settings, const std::string& name, const Path& file) {
-    const std::string table = settings.table("body", name);
-    if (table.empty())
-      throw InputError(fmt::format("the scene of this result has no body \"{}\"", name), {.file = file.string()},
-                       "give the `name` of a [[body]] without copies");
-    rest_ = hydro::parse_vector(settings.of(table + ".position"), hydro::dim::length);
-    const auto free = settings.texts(table + ".free");
+  BodyMotion(const RunResult& record, const RunSettings& settings, const PlacedBody& body, const Path& file)
+      : rest_(body.at) {
+    const std::string& name = body.name;
+    const auto free = settings.texts(body.table + ".free");
     for (std::size_t mode = 0; mode < 6; ++mode) {
       const std::string word(hydro::mode_names[mode]), signal = name + "." + word;
       for (const Signal& s : record.signals)
@@ -140,9 +181,10 @@ class BodyMotion {
   std::array<std::vector<double>, 6> motions_;
 };
 
-void add_members(const RunResult& record, const RunSettings& settings, const std::string& name, const Path& file,
+void add_members(const RunResult& record, const RunSettings& settings, const PlacedBody& body, const Path& file,
                  std::vector<Chain>& out) {
-  const auto motion = std::make_shared<const BodyMotion>(record, settings, name, file);
+  const std::string& name = body.name;
+  const auto motion = std::make_shared<const BodyMotion>(record, settings, body, file);
   const std::size_t before = out.size();
   for (int i = 1; settings.has(fmt::format("member[{}].on", i)); ++i) {
     const std::string table = fmt::format("member[{}]", i);
@@ -196,7 +238,9 @@ Snapshots snapshots_of(const SnapshotArguments& a) {
   const RunSettings settings(a.file);
   Snapshots out;
   for (const std::string& name : a.lines) out.chains.push_back(line_in(record, settings, name, a.file));
-  for (const std::string& name : a.bodies) add_members(record, settings, name, a.file, out.chains);
+  for (const std::string& pattern : a.bodies)
+    for (const PlacedBody& body : bodies_named(pattern, settings, a.file))
+      add_members(record, settings, body, a.file, out.chains);
   for (const std::string& at : a.at) {
     out.samples.push_back(sample_at(record, at, a.file));
     out.times.push_back(record.time[out.samples.back()]);

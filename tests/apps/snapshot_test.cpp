@@ -83,6 +83,35 @@ TEST_F(SnapshotCommand, ShowsMembersWhereTheirBodyIs) {
   EXPECT_NEAR(places[1][2], -1, 1e-12);
 }
 
+TEST_F(SnapshotCommand, ShowsCopiesInARowAndInAGridByPatterns) {
+  arguments.lines = {};
+  arguments.bodies = {"b*"};
+  provenance.settings.insert(provenance.settings.end(),
+                             {{"body[1].copies.count", "2"}, {"body[1].copies.step", "(13, 0, 0) m"}});
+  provenance.settings[7].second = "[b*]";  // member[1].on
+  const std::vector<froude::Signal> of_one(signals.end() - 2, signals.end());
+  const auto keep = [&](const std::string& name, double surge) {
+    for (froude::Signal s : of_one) {
+      s.name.replace(0, 1, name);
+      s.values = s.units == "m" ? std::vector<double>{0, surge, 0} : std::vector<double>{0, 0, 0};
+      signals.push_back(s);
+    }
+  };
+  keep("b1", 1), keep("b2", -2);
+  const auto shown = json()["instants"][0]["shown"];
+  ASSERT_EQ(shown.size(), 2);
+  EXPECT_EQ(shown[1]["name"], "b2");
+  EXPECT_EQ(shown[0]["places_m"], nlohmann::json::parse("[[1.0, 0.0, -1.0], [1.0, 0.0, -3.0]]"));
+  EXPECT_EQ(shown[1]["places_m"], nlohmann::json::parse("[[11.0, 0.0, -1.0], [11.0, 0.0, -3.0]]"));
+  provenance.settings.insert(provenance.settings.end(),
+                             {{"body[1].copies.rows", "2"}, {"body[1].copies.row_step", "(0, 7, 0) m"}});
+  keep("b1_1", 0), keep("b1_2", 0), keep("b2_1", 0), keep("b2_2", 5);
+  EXPECT_EQ(json()["instants"][0]["shown"][3]["places_m"],
+            nlohmann::json::parse("[[18.0, 7.0, -1.0], [18.0, 7.0, -3.0]]"));
+  arguments.bodies = {"c"};
+  EXPECT_THAT(refused([&] { json(); }), HasSubstr("bodies are: b1_1, b1_2, b2_1, b2_2"));
+}
+
 TEST_F(SnapshotCommand, SaysWhatTheResultDoesNotKeep) {
   arguments.at = {"5 s"};
   EXPECT_THAT(refused([&] { json(); }), HasSubstr("give a time from 0 to 4 s"));

@@ -1,4 +1,4 @@
-/// \file  `[line.waves]`: where the water of a line is taken. (D151)
+/// \file  `[line.waves]`: where the water of a line is taken. (D152)
 #include "scene/line_property.hpp"
 
 namespace froude::scene {

@@ -116,14 +116,19 @@ Amplitudes response_amplitudes(const SmallMotions& about, const std::vector<Pote
 
 // (D142)
 Amplitudes answers_to_loads(const SmallMotions& about, const std::vector<PotentialGroup>& groups,
-                            const std::vector<double>& omega, const std::vector<int>& modes, int threads) {
+                            const std::vector<double>& omega, const std::vector<int>& modes, const LinearDrag* drag,
+                            int threads) {
   const Equations equations(about, groups, BelowData::straight_to_zero);
   const auto columns = static_cast<Eigen::Index>(modes.size());
   Eigen::MatrixXcd unit = Eigen::MatrixXcd::Zero(about.model.modes(), columns);
   for (Eigen::Index m = 0; m < columns; ++m) unit(modes[static_cast<std::size_t>(m)], m) = 1;
   Amplitudes out = no_motion(about, modes.size(), omega.size());
   if (equations.are_empty() || modes.empty()) return out;
-  hydro::in_parallel(omega.size(), threads, [&](std::size_t w) { put(motions_at(equations, omega[w], unit), w, out); });
+  hydro::in_parallel(omega.size(), threads, [&](std::size_t w) {
+    Impedance Z = equations.impedance(omega[w]);
+    if (drag != nullptr) add_drag(*drag, 0, omega[w], Z);
+    put(equations.solve(Z, unit, omega[w]), w, out);
+  });
   out.sparse = equations.are_sparse();
   out.factorisations = static_cast<int>(omega.size());
   return out;

@@ -36,7 +36,8 @@ class SeaResponses {
  public:
   SeaResponses(const SmallMotions& about, const std::vector<PotentialGroup>& groups, const std::vector<double>& omega,
                const std::vector<DragPiece>& pieces, const DragSea& sea)
-      : pieces_(turned(pieces, about.still)), modes_(about.model.modes()), equations_(about, groups) {
+      : pieces_(turned(pieces, about.still)), slow_(sea.slow), modes_(about.model.modes()), equations_(about, groups) {
+    if (slow_.empty()) slow_.assign(pieces.size(), Eigen::Matrix3d::Zero());
     for (std::size_t w = 0; w < omega.size(); ++w) {
       const auto headings = static_cast<Index>(sea.heading.size());
       Cell cell{omega[w], MatrixXcd(modes_, headings), MatrixXcd(3 * static_cast<Index>(pieces.size()), headings),
@@ -52,7 +53,7 @@ class SeaResponses {
 
   /// Standard deviations of relative velocities with drag of these coefficients; none: past bodies that do not move.
   Eigen::MatrixX2d sigma(const VectorXd& coefficient) const {
-    std::vector<Eigen::Matrix3d> covariance(pieces_.size(), Eigen::Matrix3d::Zero());
+    std::vector<Eigen::Matrix3d> covariance = slow_;
     for (const Cell& cell : cells_) {
       const MatrixXcd xi = motions(cell, coefficient);
       for (std::size_t i = 0; i < pieces_.size(); ++i) {
@@ -101,6 +102,7 @@ class SeaResponses {
   }
 
   std::vector<DragPiece> pieces_;
+  std::vector<Eigen::Matrix3d> slow_;
   Index modes_;
   Equations equations_;
   std::vector<Cell> cells_;
@@ -172,6 +174,48 @@ LinearDrag drag_with(const VectorXd& coefficient, const SmallMotions& about, con
     drag.velocity.col(w) =
         water_velocity(pieces, about.model.bodies(), water, omega[static_cast<std::size_t>(w)], heading);
   return drag;
+}
+
+LinearDrag still_water_drag(const VectorXd& coefficient, const SmallMotions& about,
+                            const std::vector<DragPiece>& pieces) {
+  return {.pieces = turned(pieces, about.still), .velocity = {}, .coefficient = coefficient};
+}
+
+namespace {
+
+/// Two axes across a piece, and half way between them, (3, 3) by columns.
+Eigen::Matrix3d axes_across(const DragPiece& piece) {
+  Eigen::Matrix3d out;
+  out.col(0) = piece.axis.unitOrthogonal();
+  out.col(1) = piece.axis.cross(out.col(0));
+  out.col(2) = (out.col(0) + out.col(1)) / std::numbers::sqrt2;
+  return out;
+}
+
+}  // namespace
+
+std::vector<Variation> velocities_across(const SmallMotions& about, const std::vector<DragPiece>& pieces) {
+  std::vector<Variation> out;
+  for (const DragPiece& piece : turned(pieces, about.still)) {
+    const Eigen::Matrix<double, 3, 6> rows = axes_across(piece).transpose() * velocity_across(piece);
+    for (int axis = 0; axis < 3; ++axis)
+      out.push_back({.parts = {{.body = piece.body, .by_velocity = rows.row(axis)}}});
+  }
+  return out;
+}
+
+// With s of the axis half way, ⟨w₁w₂⟩ = ⟨s²⟩ − (⟨w₁²⟩ + ⟨w₂²⟩)/2.
+std::vector<Eigen::Matrix3d> covariances_across(const SmallMotions& about, const std::vector<DragPiece>& pieces,
+                                                const VectorXd& variance) {
+  std::vector<Eigen::Matrix3d> out;
+  for (Index i = 0; i < std::ssize(pieces); ++i) {
+    const Eigen::Vector3d of = variance.segment<3>(3 * i);
+    const double both = of[2] - (of[0] + of[1]) / 2;
+    const Eigen::Matrix3d axes = axes_across(turned(pieces[static_cast<std::size_t>(i)], about.still));
+    const Eigen::Matrix<double, 3, 2> across = axes.leftCols<2>();
+    out.emplace_back(across * Eigen::Matrix2d{{of[0], both}, {both, of[1]}} * across.transpose());
+  }
+  return out;
 }
 
 }  // namespace dynamics::frequency

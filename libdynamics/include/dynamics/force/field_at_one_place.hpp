@@ -7,7 +7,7 @@
 namespace dynamics {
 
 /// Every point has the water of `place`, waves and current, whose gradients are zero: for bodies that are small against
-/// the waves, and for comparison with models that take waves at one place (D151).
+/// the waves, and for comparison with models that take waves at one place (D152).
 class FieldAtOnePlace final : public hydro::waves::WaveField {
  public:
   FieldAtOnePlace(std::shared_ptr<const hydro::waves::WaveField> field, const Eigen::Vector3d& place)

@@ -37,8 +37,9 @@ Amplitudes response_amplitudes(const SmallMotions& about, const std::vector<Pote
 /// [−ω²(M + A(ω)) + iω(B(ω) + D) + K] ξ + Gᵀλ = e_m, for each of these modes m where response_amplitudes() has a
 /// heading. From ω = 0 on, where K alone holds a constant load: below the tables A is straight to A(0) or constant, B
 /// straight to none. \throws hydro::InputError above the data, hydro::NumericsError naming frequency and motion if the
-/// matrix is singular, as at ω = 0 where nothing holds a motion (D142)
+/// matrix is singular, as at ω = 0 where nothing holds a motion (D142). `drag`: of still_water_drag(), or none
 Amplitudes answers_to_loads(const SmallMotions& about, const std::vector<PotentialGroup>& groups,
-                            const std::vector<double>& omega, const std::vector<int>& modes, int threads = 1);
+                            const std::vector<double>& omega, const std::vector<int>& modes,
+                            const LinearDrag* drag = nullptr, int threads = 1);
 
 }  // namespace dynamics::frequency

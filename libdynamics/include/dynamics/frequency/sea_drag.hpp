@@ -6,6 +6,7 @@
 
 #include "dynamics/force/drag.hpp"
 #include "dynamics/frequency/rao.hpp"
+#include "dynamics/state/signal.hpp"
 
 namespace dynamics::frequency {
 
@@ -19,6 +20,9 @@ struct DragSea {
   hydro::Water water;
   std::vector<double> heading;  ///< rad
   Eigen::MatrixXd variance;     ///< of the elevation that each component stands for, m², (headings, Nω)
+  /// Of each piece, along global axes, (m/s)²: the covariance of velocities beside those that these components make, as
+  /// of slow drift; empty: none. (D151)
+  std::vector<Eigen::Matrix3d> slow = {};
 };
 
 /// Of every piece, the same at all frequencies and headings of its sea.
@@ -40,5 +44,16 @@ SeaDrag drag_in_sea(const SmallMotions& about, const std::vector<PotentialGroup>
 /// These coefficients, (pieces), N s/m, for waves of one heading, rad, at any frequencies, rad/s.
 LinearDrag drag_with(const Eigen::VectorXd& coefficient, const SmallMotions& about, const std::vector<double>& omega,
                      const std::vector<DragPiece>& pieces, const hydro::Water& water, double heading);
+
+/// These coefficients in answers to other loads than waves', at whatever frequency: one column of coefficients.
+LinearDrag still_water_drag(const Eigen::VectorXd& coefficient, const SmallMotions& about,
+                            const std::vector<DragPiece>& pieces);
+
+/// Velocities of pieces by the motions of bodies, three a piece: along two axes across it and half way between, whose
+/// variances give the covariance.
+std::vector<Variation> velocities_across(const SmallMotions& about, const std::vector<DragPiece>& pieces);
+/// That of each piece, along global axes, by their variances, (m/s)².
+std::vector<Eigen::Matrix3d> covariances_across(const SmallMotions& about, const std::vector<DragPiece>& pieces,
+                                                const Eigen::VectorXd& variance);
 
 }  // namespace dynamics::frequency
