@@ -228,7 +228,9 @@ class DragOfBoth {
   static std::string told_of(double by_waves, double all, int turns) {
     return fmt::format(
         "drag on members damps slow drift: {:.4g} N s/m in all, linear for the velocities of waves, slow drift and "
-        "sums together, {:.4g} N s/m for those of waves alone; settled in {} turns",
+        "sums together, {:.4g} N s/m for those of waves alone; settled in {} turns; swings of slow drift are larger "
+        "than Gaussian ones, so "
+        "that its deviation comes out some hundredths too high",
         all, by_waves, turns);
   }
 

@@ -8,6 +8,8 @@
 #include <csignal>
 #include <iostream>
 #include <sstream>
+#include <string_view>
+#include <vector>
 
 #include "froude/option.hpp"
 #include "froude/signals.hpp"
@@ -102,8 +104,13 @@ int carry_out(const Request& request) {
 }
 
 int carry_out(CLI::App& app, Request& request, int argc, char** argv) {
+  std::vector<const char*> words(argv, argv + argc);
+  if (argc > 1 && std::string_view(argv[1]) == "help") {  // `help run` is `run --help`
+    words.erase(words.begin() + 1);
+    words.push_back("--help");
+  }
   try {
-    app.parse(argc, argv);
+    app.parse(static_cast<int>(words.size()), words.data());
   } catch (const CLI::Success& help_or_version) {
     return app.exit(help_or_version);
   } catch (const CLI::ParseError& error) {

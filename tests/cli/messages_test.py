@@ -316,6 +316,10 @@ class WrongCommandLine(CommandLine):
     def test_no_command(self):
         self.refuses(self.froude(), "--help")
 
+    def test_help_is_a_word_too(self):
+        for words in ((), ("run",), ("bem", "solve")):
+            self.assertEqual(self.froude("help", *words).stdout, self.froude(*words, "--help").stdout)
+
     def test_an_unknown_option_names_the_help_of_its_command(self):
         self.refuses(self.froude("run", "scene.toml", "--fast"), "--fast", "froude run --help")
 
