@@ -152,10 +152,10 @@ namespace {
 
 /// rankine(), by the centre alone where P is so far that a few 1e-4 are lost by it.
 Rankine rankine_far_or_near(const Polygon& q, const Vector3d& P) {
-  constexpr double far = 10;  // sizes of the panel
+  constexpr double by_centre = 10;  // sizes of the panel
   const Vector3d way = P - q.centre;
   const double r = way.norm();
-  if (r < far * q.size) return rankine(q, P);
+  if (r < by_centre * q.size) return rankine(q, P);
   return {q.area / r, q.area * q.normal.dot(way) / (r * r * r)};
 }
 
