@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "deep.hpp"
+#include "hydro/base/error.hpp"
 #include "hydro/base/parallel.hpp"
 #include "hydro/waves/dispersion.hpp"
 #include "model.hpp"
@@ -15,9 +16,13 @@ namespace hydro::cylinders {
 namespace {
 
 /// The orders of a wave that cylinders of this radius scatter by more than `least` of it: J_m(ka) < (ka/2)^m/m!.
+/// \throws InputError for more than can be had
 int orders_scattered(double ka, double least) {
+  constexpr int most = 200;  // a radius of 20 wavelengths
   int m = 1;
-  for (double bound = ka / 2; bound > least; bound *= ka / 2 / m) ++m;
+  while (m <= most && m * std::log(ka / 2) - std::lgamma(m + 1) > std::log(least)) ++m;
+  require(m <= most, "a cylinder's radius is {:.4g} wavelengths; its field is told up to about 20",
+          ka / (2 * std::numbers::pi));
   return m;
 }
 

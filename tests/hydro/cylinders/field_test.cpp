@@ -160,6 +160,12 @@ TEST(CylinderField, RefusesQuestionsThatMakeNoSense) {
   FieldQuestion question = asked(ring({0, 0}, 9, 4));
   question.omega = -1;
   refused(question, "positive");
+  question.omega = 12;  // waves of 0.43 m
+  EXPECT_THAT(
+      [&] {
+        wave_field({body("tank", {{0, 0}, 40, 5})}, water, question);
+      },
+      testing::ThrowsMessage<hydro::InputError>(testing::HasSubstr("wavelengths")));
   question = asked(ring({0, 0}, std::nan(""), 4));
   refused(question, "finite");
 }
