@@ -241,6 +241,7 @@ std::vector<Example> of_lines() {
       line("buoyancy of a line", wide + "buoyancy = true\n"),
       line("a line wet in part", wide + "buoyancy = true\npartial_immersion = true\n"),
       line("Morison on a line", wide + "morison = { cd = 1.0, ca = 1.0 }\n"),
+      line("waves at one place", wide + "morison = { cd = 1.0, ca = 1.0 }\nwaves = { at = \"(1, 0, -1) m\" }\n"),
       line("damping of a line", "damping = { quadratic = \"0.1 kg/m\", componentwise = true }\n"),
       line("growth", wide + "buoyancy = true\ngrowth = { thickness = \"10 mm\", density = \"1200 kg/m^3\" }\n"),
       line("bed", wide + "bed = { stiffness = \"3 MPa/m\" }\n"),
@@ -317,7 +318,8 @@ std::vector<Example> of_answers() {
                periods +
                ", drag = { height = \"1 m\" } }\nmodes = {}\nstability = { periods = \"4 s .. 6 s, 2 values\", heights "
                "= \"1 m .. 2 m, 2 values\", branch = [{ height = \"1 m\" }, { period = \"5 s\" }] "
-               "}\nwaves = { duration = \"2 s\", every = \"0.5 s\" }\nuncompressed = true\n"
+               "}\nfield = { period = \"5 s\", x = \"0 m .. 9 m, 2 values\", y = \"0 m .. 9 m, 2 values\" }\n"
+               "waves = { duration = \"2 s\", every = \"0.5 s\" }\nuncompressed = true\n"
                "[solve]\naccept_error = true\nstep = \"0.05 s\"\nintegrator = { name = \"generalized_alpha\" }\n",
            {"hydrostatics", "excitation", "drag"}}};
 }

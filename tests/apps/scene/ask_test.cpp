@@ -119,7 +119,7 @@ TEST(SceneAsk, WantsExcitationForAnRao) {
 
 TEST(SceneAsk, AsksForSomething) {
   EXPECT_THAT(refusal(with(sphere, "run = { duration = \"40 s\", every = \"0.02 s\" }\n", "")),
-              StartsWith("scene.toml:20:1: error: [ask] needs at least one of rao, modes, stability, run"));
+              StartsWith("scene.toml:20:1: error: [ask] needs at least one of rao, modes, stability, field, run"));
 }
 
 TEST(SceneAsk, RunsAWholeNumberOfSamples) {
