@@ -131,7 +131,13 @@ void add_field(py::module_& m) {
       .def_readonly("omega", &FreeSurface::omega, "Frequency of the wave, rad/s.")
       .def_readonly("heading", &FreeSurface::heading, "Where the wave goes, rad, from +x towards +y.")
       .def_readonly("held", &FreeSurface::held, "True if the bodies are held still.")
-      .def_readonly("estimate", &FreeSurface::estimate, "Estimated error of the elevation, over its largest.");
+      .def_readonly("estimate", &FreeSurface::estimate, "Estimated error of the elevation, over its largest.")
+      .def_property_readonly(
+          "mean_drift", [](const FreeSurface& f) { return py::make_tuple(f.drift_x, f.drift_y); },
+          "Mean drift force on all bodies along x and y, N per m^2 of wave amplitude.")
+      .def_readonly("power_taken", &FreeSurface::power_taken, "Mean power that the bodies take, W per m^2 of amplitude.")
+      .def_readonly("power_sent_out", &FreeSurface::power_sent_out,
+                    "Mean power of scattered and radiated waves, W per m^2 of amplitude.");
   add_dataset(type, "of_field", "xarray.Dataset along `y` and `x`, complex; `units` and `long_name` of each.");
 }
 

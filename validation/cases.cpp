@@ -6,6 +6,7 @@ namespace froude::validation {
 
 // clang-format off
 namespace ball_drops { Outcome outcome(const Folders& folders); }
+namespace chosen_frequencies { Outcome outcome(const Folders& folders); }
 namespace clock_offset { Outcome outcome(const Folders& folders); }
 namespace cylinder { Outcome outcome(const Folders& folders); }
 namespace dispersion { Outcome outcome(const Folders& folders); }
@@ -97,6 +98,7 @@ const std::vector<Case>& cases() {
       {"hulme", hulme::outcome, {"hulme_hemisphere"}},
       {"hull-hulme", hull_hulme::outcome, {"hulme_hemisphere"}},
       {"cylinder", cylinder::outcome},
+      {"chosen-frequencies", chosen_frequencies::outcome},
       {"hull-array", hull_array::outcome},
       {"hull-cylinder", hull_cylinder::outcome},
       {"hull-generated", hull_generated::outcome, {"generated-bem"}},

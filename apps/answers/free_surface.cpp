@@ -114,6 +114,11 @@ FreeSurface free_surface(const scene::Scene& scene, const std::shared_ptr<compil
                                                 : compile::field_of_hulls(scene, bodies, question);
   require_accuracy(scene, field.estimate);
   out.estimate = field.estimate;
+  const hydro::potential::MeanDrift drift = mean_drift(field.far, asked.omega, scene.water);
+  out.drift_x = drift.force.x();
+  out.drift_y = drift.force.y();
+  out.power_taken = drift.taken;
+  out.power_sent_out = drift.scattered;
   out.signals = {part("elevation", "free surface", field.total(), field.known),
                  part("incident", "free surface without bodies", field.incident, field.known),
                  part("scattered", "what bodies held still add to the free surface", field.scattered, field.known),

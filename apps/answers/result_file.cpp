@@ -268,6 +268,14 @@ void FreeSurface::write(const std::filesystem::path& path) const {
   describe(file, "/omega", "rad/s", "angular frequency of the wave");
   file.write_scalar("/heading", heading);
   describe(file, "/heading", "rad", meaning_of_heading);
+  const auto write_mean = [&](const char* name, double value, const char* unit, const char* meaning) {
+    file.write_scalar(name, value);
+    describe(file, name, unit, meaning);
+  };
+  write_mean("/drift_x", drift_x, "N/m^2", "mean drift force on all bodies, per wave amplitude squared");
+  write_mean("/drift_y", drift_y, "N/m^2", "mean drift force on all bodies, per wave amplitude squared");
+  write_mean("/power_taken", power_taken, "W/m^2", "mean power that the bodies take from the waves");
+  write_mean("/power_sent_out", power_sent_out, "W/m^2", "mean power of scattered and radiated waves");
   for (const ComplexSignal& part : signals) {
     const std::string dataset = root_path(part.name);
     std::vector<double> flat;

@@ -31,10 +31,17 @@ inline std::string left_to_do(const std::string& size, bool kept) {
   return kept ? size + ", none of which is to be done again" : size;
 }
 
+/// "39 frequencies", or those that are solved first and about how many there will be.
+inline std::string frequencies_in_words(std::size_t stated, int expected) {
+  if (static_cast<int>(stated) == expected) return fmt::format("{} frequencies", stated);
+  return fmt::format("{} frequencies and more where they are needed, about {} in all", stated, expected);
+}
+
 /// Bodies that are solved together have one table. \throws hydro::InputError at the second if theirs differ
 template <class Table>
 void require_same_table(const std::string& kind, const Table& first, const Table& other, const hydro::Place& place) {
-  if (other.omega != first.omega || other.headings != first.headings)
+  if (other.omega != first.omega || other.headings != first.headings ||
+      other.frequency_tolerance != first.frequency_tolerance)
     throw hydro::InputError(fmt::format("bodies of {} state different frequencies or headings", kind), place,
                             "they are solved together: give all the same");
 }

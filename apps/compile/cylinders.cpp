@@ -46,6 +46,9 @@ Request request(const Scene& scene, const std::vector<int>& bodies) {
   // A tenth of the accuracy asked of the motions, so that their error is not made here.
   r.options.tolerance = std::clamp(0.1 * scene.accuracy, 1e-6, 1e-3);
   r.options.doubled_frequencies = 1;
+  r.options.frequency_tolerance = first.cylinders->frequency_tolerance;
+  if (r.options.frequency_tolerance)  // what is foreseen has to stand out from the error of what is seen
+    r.options.tolerance = std::min(r.options.tolerance, 0.1 * *r.options.frequency_tolerance);
   return r;
 }
 
@@ -78,7 +81,8 @@ hydro::potential::Coefficients coefficients_of_cylinders(const Scene& scene, con
 
 hydro::potential::WaveField field_of_cylinders(const Scene& scene, const std::vector<int>& bodies,
                                                const hydro::potential::FieldQuestion& question) {
-  const Request r = request(scene, bodies);
+  Request r = request(scene, bodies);
+  r.options.frequency_tolerance.reset();  // there is one frequency
   return scene::placed(r.place,
                        [&] { return hydro::cylinders::wave_field(r.layout, scene.water, question, r.options); });
 }
@@ -86,8 +90,9 @@ hydro::potential::WaveField field_of_cylinders(const Scene& scene, const std::ve
 std::string what_is_solved(const Scene& scene, const std::vector<int>& bodies) {
   const Request r = request(scene, bodies);
   std::string out =
-      fmt::format("cylinders {} {} {} {} | {} | {}", scene.water.density, scene.water.gravity,
-                  scene.water.depth.metres(), r.options.tolerance, fmt::join(r.omega, " "), fmt::join(r.headings, " "));
+      fmt::format("cylinders {} {} {} {} {} | {} | {}", scene.water.density, scene.water.gravity,
+                  scene.water.depth.metres(), r.options.tolerance, r.options.frequency_tolerance.value_or(0),
+                  fmt::join(r.omega, " "), fmt::join(r.headings, " "));
   for (const auto& body : r.layout) {
     out += fmt::format(" | {} {} {}", body.name, fmt::join(body.reference_point, " "),
                        fmt::join(body.centre_of_gravity.value_or(body.reference_point), " "));
@@ -105,9 +110,9 @@ std::string CylinderPlan::method() const {
 
 std::string CylinderPlan::size() const {
   return left_to_do(
-      fmt::format("{} cylinders in {} {}, {} frequencies, {} headings; {} unknowns at most, {:.3g} MB, about {:.2g} s",
-                  cylinders, bodies, bodies == 1 ? "body" : "bodies", frequencies, headings, cost.unknowns,
-                  std::ceil(cost.bytes / 1e6), std::max(0.1, cost.seconds)),
+      fmt::format("{} cylinders in {} {}, {}, {} headings; {} unknowns at most, {:.3g} MB, about {:.2g} s", cylinders,
+                  bodies, bodies == 1 ? "body" : "bodies", frequencies_in_words(frequencies, cost.frequencies),
+                  headings, cost.unknowns, std::ceil(cost.bytes / 1e6), std::max(0.1, cost.seconds)),
       kept_in.has_value());
 }
 

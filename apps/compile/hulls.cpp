@@ -92,6 +92,7 @@ HullRequest hull_request(const Scene& scene, const std::vector<int>& bodies) {
   }
   if (r.headings.empty()) r.headings = headings_asked(scene);
   r.options.tolerance = tolerance_of(*first.mesh, scene);
+  r.options.frequency_tolerance = first.mesh->frequency_tolerance;
   r.options.lid = first.mesh->lid;
   r.options.interaction = first.mesh->interaction;
   return r;
@@ -106,6 +107,7 @@ std::string key_of_hulls(const HullRequest& r, const hydro::Water& water) {
   out(r.omega);
   out(r.headings);
   out(r.options.tolerance);
+  out(r.options.frequency_tolerance);
   out(r.options.refined_frequencies);
   out(r.options.lid);
   out(static_cast<int>(r.options.interaction));
@@ -154,7 +156,8 @@ hp::Solution solve_hulls(const Scene& scene, const std::vector<int>& bodies) {
 // About the middle of the bodies the wave has another phase: motions are per metre of a wave with its crest there.
 hydro::potential::WaveField field_of_hulls(const Scene& scene, const std::vector<int>& bodies,
                                            const hydro::potential::FieldQuestion& question) {
-  const HullRequest r = hull_request(scene, bodies);
+  HullRequest r = hull_request(scene, bodies);
+  r.options.frequency_tolerance.reset();  // there is one frequency
   const std::complex<double> phase = hydro::potential::incident_elevation(
       r.from_origin.transpose(), hydro::waves::wavenumber(question.omega, scene.water), question.heading)(0);
   hydro::potential::FieldQuestion there = question;
@@ -174,10 +177,10 @@ Coefficients coefficients_of_hulls(const Scene& scene, const std::vector<int>& b
 
 std::string what_hulls_are_solved(const Scene& scene, const std::vector<int>& bodies) {
   const HullMesh& table = *hydrodynamics_of(scene, bodies.front()).mesh;
-  std::string out = fmt::format("meshes {} {} {} {} {} {} | {} | {}", scene.water.density, scene.water.gravity,
-                                scene.water.depth.metres(), tolerance_of(table, scene), table.lid,
-                                static_cast<int>(table.interaction), fmt::join(table.omega, " "),
-                                fmt::join(table.headings.empty() ? headings_asked(scene) : table.headings, " "));
+  std::string out = fmt::format(
+      "meshes {} {} {} {} {} {} {} | {} | {}", scene.water.density, scene.water.gravity, scene.water.depth.metres(),
+      tolerance_of(table, scene), table.frequency_tolerance.value_or(0), table.lid, static_cast<int>(table.interaction),
+      fmt::join(table.omega, " "), fmt::join(table.headings.empty() ? headings_asked(scene) : table.headings, " "));
   for (const int b : bodies) {
     const scene::Body& body = scene.bodies[static_cast<std::size_t>(b)];
     const HullMesh& mesh = *body.hydrodynamics->mesh;
@@ -191,9 +194,9 @@ std::string size_of_hulls(const hp::Cost& c, std::size_t frequencies, std::size_
   const std::string refined = c.refined_unknowns > 0 ? fmt::format(", {} in the refined mesh", c.refined_unknowns) : "";
   const std::string kinds =
       c.partial_waves > 0 ? fmt::format(" for each kind of hull, up to {} partial waves a hull", c.partial_waves) : "";
-  return fmt::format("{} panels, {} frequencies, {} headings; {} x {} unknowns{}{}, {:.3g} MB, about {:.2g} s",
-                     c.panels, frequencies, headings, c.systems, c.unknowns, refined, kinds, std::ceil(c.bytes / 1e6),
-                     std::max(0.1, c.seconds));
+  return fmt::format("{} panels, {}, {} headings; {} x {} unknowns{}{}, {:.3g} MB, about {:.2g} s", c.panels,
+                     frequencies_in_words(frequencies, c.frequencies), headings, c.systems, c.unknowns, refined, kinds,
+                     std::ceil(c.bytes / 1e6), std::max(0.1, c.seconds));
 }
 
 std::string HullPlan::method() const {

@@ -160,7 +160,7 @@ struct HullTexts {
   std::string density, gravity = "9.81 m/s^2", depth, unit, frequencies, headings;
   std::vector<std::string> reference, cog;
   std::string interaction = "automatic";
-  double tolerance = 0;
+  double tolerance = 0, frequency_tolerance = 0;
   bool no_lid = false;
 };
 
@@ -205,6 +205,7 @@ void read_hulls(const HullTexts& texts, BemHullArguments& a) {
                                                                  : Interaction::automatic;
   a.options.lid = !texts.no_lid;
   if (texts.tolerance > 0) a.options.tolerance = texts.tolerance;
+  if (texts.frequency_tolerance > 0) a.options.frequency_tolerance = texts.frequency_tolerance;
 }
 
 void add_hull_options(CLI::App& solve, HullTexts& texts, BemHullArguments& a) {
@@ -225,6 +226,11 @@ void add_hull_options(CLI::App& solve, HullTexts& texts, BemHullArguments& a) {
   solve.add_option(
       "--refine", a.options.refined_frequencies,
       "at how many frequencies panels are cut in four: to tell the error, or with --tolerance to begin with");
+  solve
+      .add_option("--frequency-tolerance", texts.frequency_tolerance,
+                  "more frequencies are solved between --frequencies where responses bend, until what lies between is "
+                  "foreseen to this, relative: 0.01; the table is as fine as that takes")
+      ->check(CLI::Range(1e-6, 0.1));
   solve
       .add_option(
           "--interaction", texts.interaction,

@@ -46,6 +46,13 @@ Report report_of(const scene::Scene& scene, const FreeSurface& surface, const Pa
               fact("amplitude", at.amplitude), fact("x_m", at.x), fact("y_m", at.y));
       out.part(highest ? "highest" : "lowest", std::move(one));
     }
+  Report mean;
+  mean.say(
+      "mean drift on all bodies ({:.4g}, {:.4g}) N per m^2 of wave amplitude; they take {:.3g} W/m^2 from the waves "
+      "and send out {:.4g}",
+      fact("x_N_m2", surface.drift_x), fact("y_N_m2", surface.drift_y), fact("taken_W_m2", surface.power_taken),
+      fact("sent_out_W_m2", surface.power_sent_out));
+  out.part("mean_drift", std::move(mean));
   out.say("estimated error {:.2g} of the highest, accuracy asked {:.2g}", fact("error", surface.estimate),
           fact("asked", scene.accuracy.value));
   return out.sentences("notes", "note: {}", surface.notes).say("wrote {}", fact("file", file.string()));

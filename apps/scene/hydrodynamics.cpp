@@ -90,6 +90,18 @@ Binding<Cylinders> equal_cylinders(const std::string& title, const std::string& 
       .then(append_cylinders);
 }
 
+/// Where the program chooses frequencies: in (0, 1), its own limits are the solvers'.
+Key frequency_tolerance() {
+  return number(
+             "frequency_tolerance",
+             "largest error of B + iω(A − A(∞)) and X between solved frequencies, relative to the largest of the two "
+             "modes: the program solves at `frequencies` first, five at least, then between them where responses "
+             "bend, until interpolation foresees what it has not seen, and makes the table as fine as that takes; "
+             "without it the table has just those of `frequencies`")
+      .within(Limit::open_fraction)
+      .optional();
+}
+
 Binding<Cylinders> cylinders() {
   static const Binding<Cylinders> others =
       equal_cylinders("[[body.hydrodynamics.cylinders.others]]", "cylinders of another size in the same body");
@@ -102,6 +114,7 @@ Binding<Cylinders> cylinders() {
       .key(range("frequencies", dim::angular_velocity,
                  "of the table that is computed: \"0.2 rad/s .. 4 rad/s, 39 values\""),
            &Cylinders::omega)
+      .key(frequency_tolerance(), &Cylinders::frequency_tolerance)
       .key(range("headings", dim::angle, "of the table; without it those of [waves] and [ask]").optional(),
            &Cylinders::headings);
 }
@@ -127,6 +140,7 @@ Binding<HullMesh> hull_mesh() {
                .optional()
                .only_beside("mesh"),
            &HullMesh::omega)
+      .key(frequency_tolerance().only_beside("mesh"), &HullMesh::frequency_tolerance)
       .key(range("headings", dim::angle, "of that table; without it those of [waves] and [ask]")
                .optional()
                .only_beside("mesh"),

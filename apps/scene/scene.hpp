@@ -163,6 +163,7 @@ struct Memory {
 struct Cylinders {
   std::vector<hydro::cylinders::Cylinder> all;  ///< at least one; their centres in body axes
   std::vector<double> omega, headings;          ///< rad/s; rad, empty: those that the scene asks for
+  std::optional<double> frequency_tolerance;    ///< more frequencies are chosen between these until it is met
 };
 
 /// `[body.hydrodynamics] mesh`: the hull of a body, of which the program computes the coefficients by panels.
@@ -171,8 +172,9 @@ struct HullMesh {
   std::optional<double> unit;           ///< of the mesh, m
   bool reverse = false;                 ///< its faces are turned inside out
   std::vector<double> omega, headings;  ///< as of Cylinders
-  std::optional<double> tolerance;      ///< largest estimated error by panels; empty: the accuracy asked
-  bool lid = true;                      ///< panels on the water inside
+  std::optional<double> frequency_tolerance;
+  std::optional<double> tolerance;  ///< largest estimated error by panels; empty: the accuracy asked
+  bool lid = true;                  ///< panels on the water inside
   hydro::panels::Interaction interaction = hydro::panels::Interaction::automatic;
 };
 

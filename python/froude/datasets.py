@@ -72,6 +72,8 @@ def of_field(surface: _froude.FreeSurface) -> "xarray.Dataset":
         {"y": _axis("y", surface.y, "m", "of the grid, global"), "x": _axis("x", surface.x, "m", "of the grid, global"),
          "omega": surface.omega, "heading": surface.heading},
         {**_about(surface, "field"), "estimated_error": surface.estimate,
+         "mean_drift_N_m2": list(surface.mean_drift), "power_taken_W_m2": surface.power_taken,
+         "power_sent_out_W_m2": surface.power_sent_out,
          "convention": "Re(amplitude e^{+i omega t}), phase against the crest at the origin"})
 
 

@@ -250,7 +250,10 @@ struct FreeSurface {
   /// "elevation", "incident", "scattered" and "radiated", m/m: value of x i, y j at j Nx + i. NaN where nothing is
   /// told: in bodies, and within the circle about a hull whose waves are told by partial waves.
   std::vector<ComplexSignal> signals;
-  double estimate = 0;             ///< of the elevation's error, over its largest
+  double estimate = 0;  ///< of the elevation's error, over its largest
+  /// To second order, per m² of wave amplitude, by the momentum of waves far away, on all bodies together: N/m² along x
+  /// and y; W/m², what the bodies take from the waves, and what they scatter and radiate.
+  double drift_x = 0, drift_y = 0, power_taken = 0, power_sent_out = 0;
   std::vector<std::string> notes;  ///< what had to be decided, and what is left out
   Provenance provenance = {};      ///< without the notes
 

@@ -3,6 +3,7 @@
 
 #include "deep.hpp"
 #include "model.hpp"
+#include "potential/operations/where_needed.hpp"
 #include "potential/solver_request.hpp"
 #include "request.hpp"
 
@@ -34,12 +35,26 @@ Model model_at(const std::vector<CylinderBody>& bodies, const Water& water, doub
 
 }  // namespace
 
-Cost cost(const std::vector<CylinderBody>& bodies, const Water& water, const std::vector<double>& omega,
+namespace {
+
+double across(const std::vector<CylinderBody>& bodies) {
+  std::vector<Cylinder> all;
+  for (const CylinderBody& body : bodies) all.insert(all.end(), body.cylinders.begin(), body.cylinders.end());
+  return distance_across(all);
+}
+
+}  // namespace
+
+Cost cost(const std::vector<CylinderBody>& bodies, const Water& water, const std::vector<double>& first,
           const std::vector<double>& heading, const Options& options) {
   check(bodies, water.depth);
-  check_request(omega, heading, options);
+  check_request(first, heading, options);
+  const std::vector<double> omega =
+      options.frequency_tolerance
+          ? potential::expected_frequencies(first, *options.frequency_tolerance, across(bodies), water)
+          : first;
   const Resolution usual{1, share_of_tolerance * options.tolerance, options.equations};
-  Cost c{0, 0, 0, false};
+  Cost c{0, 0, 0, 0, false};
   double work = 0, bytes = 0;
   const auto add = [&](double w, const Resolution& resolution) {
     const Model model = model_at(bodies, water, w, resolution);
@@ -57,6 +72,7 @@ Cost cost(const std::vector<CylinderBody>& bodies, const Water& water, const std
   for (const std::size_t i : frequencies_to_double(omega.size(), options.doubled_frequencies))
     add(omega[i], usual.doubled());
   const int threads = potential::thread_count(options.threads, omega.size());
+  c.frequencies = static_cast<int>(omega.size());
   c.bytes = bytes * threads;
   c.seconds = work / measured_rate() / threads;
   return c;

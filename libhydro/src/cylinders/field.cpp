@@ -6,9 +6,9 @@
 
 #include "deep.hpp"
 #include "hydro/base/error.hpp"
-#include "hydro/base/parallel.hpp"
 #include "hydro/waves/dispersion.hpp"
 #include "model.hpp"
+#include "potential/solver_request.hpp"
 #include "request.hpp"
 #include "surface.hpp"
 
@@ -56,13 +56,9 @@ Amplitudes widened(const Amplitudes& a, const Channels& from, const Channels& to
 // wanted, whatever passes between them.
 SentOut Model::sent_out(double omega, double heading, const Eigen::MatrixXd& velocity, double nearest) const {
   const VerticalModes depth_modes = modes(omega);
-  Grouping alone{
-      {},
-      {},
+  Grouping alone = each_alone(
       coupled_channels(cylinders_, depth_modes, resolution_.threshold, [](std::size_t, std::size_t) { return true; }),
-      expected_steps(depth_modes, cylinders_),
-      0};
-  for (std::size_t c = 0; c < cylinders_.size(); ++c) alone.members.push_back({c});
+      depth_modes, cylinders_);
   alone.between.order[0] = std::max(alone.between.order[0], resolution_.orders - 1);
   alone.within = alone.between;
   require_coupling(alone.within, "cylinders", omega);
@@ -71,14 +67,15 @@ SentOut Model::sent_out(double omega, double heading, const Eigen::MatrixXd& vel
   const Arrived there = groups(of_type, depth_modes, alone).arrived({heading}, moved, resolution_.equations);
   Grouping told = alone;
   const int highest = alone.between.highest_order();
-  told.between.order.resize(static_cast<std::size_t>(modes_near(depth_modes, alone.between, nearest)),
-                            std::min(most_evanescent_orders, highest));
+  told.between.order.resize(static_cast<std::size_t>(modes_near(depth_modes, alone.between, nearest)));
   std::fill(told.between.order.begin() + 1, told.between.order.end(), std::min(most_evanescent_orders, highest));
   told.within = told.between;
   const auto near_type = scatterers(depth_modes, told.within);
   const Groups near = groups(near_type, depth_modes, told);
-  return {depth_modes, told.between,
-          near.sent_out(widened(there.a, alone.between, told.between, cylinders_.size()), moved)};
+  Amplitudes amplitude = near.sent_out(widened(there.a, alone.between, told.between, cylinders_.size()), moved);
+  const std::vector<double> angle = angles_around(cylinders_, heading, depth_modes.k, highest);
+  Eigen::MatrixXcd far = near.far_field(amplitude, angle);
+  return {depth_modes, told.between, std::move(amplitude), angle, std::move(far)};
 }
 
 potential::WaveField wave_field(const std::vector<CylinderBody>& bodies, const Water& water,
@@ -99,18 +96,20 @@ potential::WaveField wave_field(const std::vector<CylinderBody>& bodies, const W
   const std::vector<bool> known = outside(model.cylinders(), question.point);
   const SentOut sent = model.sent_out(question.omega, question.heading, velocities_of(question),
                                       nearest_outside(model.cylinders(), question.point));
-  const int threads = options.threads > 0 ? options.threads : all_processors();
-  const auto with_modes = [&](int vertical) {
-    return field_of(potentials_at_surface(model.cylinders(), sent.modes, sent.channels, sent.amplitude, question.point,
-                                          known, vertical, threads),
-                    sent.modes, water, question, known);
+  const int threads = potential::thread_count(options.threads, known.size());
+  const auto of_modes = [&](int from, int to) {
+    return potentials_at_surface(model.cylinders(), sent.modes, sent.channels, sent.amplitude, question.point, known,
+                                 from, to, threads);
   };
   // b_n Z_n(0) falls as n^{−5/3} at the side of a cylinder, by the corner below: what is beyond N modes is six times
   // what the last fifth of them adds, and less where they decay on the way to a point.
   constexpr double beyond_last_fifth = 6;
-  const int vertical = sent.channels.vertical();
-  potential::WaveField out = with_modes(vertical);
-  out.estimate = options.tolerance + beyond_last_fifth * difference(with_modes(vertical - (vertical + 4) / 5), out);
+  const int vertical = sent.channels.vertical(), most = vertical - (vertical + 4) / 5;
+  const Eigen::MatrixXcd first = of_modes(0, most), last_fifth = of_modes(most, vertical);
+  potential::WaveField out = field_of(first + last_fifth, sent.modes, water, question, known);
+  const potential::WaveField without_last = field_of(first, sent.modes, water, question, known);
+  out.far = far_field_of(sent.angle, sent.far, sent.modes, here, question.omega);
+  out.estimate = options.tolerance + beyond_last_fifth * difference(without_last, out);
   return out;
 }
 

@@ -153,6 +153,12 @@ Grouping choose_grouping(const std::vector<Cylinder>& cylinders, const std::vect
   return best;
 }
 
+Grouping each_alone(const Channels& channels, const VerticalModes& modes, const std::vector<Cylinder>& cylinders) {
+  Grouping out{{}, channels, channels, expected_steps(modes, cylinders), 0};
+  for (std::size_t c = 0; c < cylinders.size(); ++c) out.members.push_back({c});
+  return out;
+}
+
 Groups::Groups(std::vector<Cylinder> cylinders, const Lattice* lattice, const VerticalModes& modes, Grouping grouping,
                double precision)
     : cylinders_(std::move(cylinders)),

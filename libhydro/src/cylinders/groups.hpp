@@ -28,6 +28,9 @@ double expected_steps(const VerticalModes& modes, const std::vector<Cylinder>& c
 /// Between the axes of the farthest two.
 double distance_across(const std::vector<Cylinder>& cylinders);
 
+/// Every cylinder, or circle about a hull, a group by itself, between which waves of these channels pass.
+Grouping each_alone(const Channels& channels, const VerticalModes& modes, const std::vector<Cylinder>& cylinders);
+
 /// A group's shape: equal for groups that are copies of each other.
 std::string shape_of(const std::vector<std::size_t>& members, const std::vector<Cylinder>& cylinders,
                      const std::vector<std::size_t>& kind);

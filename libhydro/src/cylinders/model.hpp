@@ -46,6 +46,8 @@ struct SentOut {
   VerticalModes modes;
   Channels channels;     ///< more than pass between cylinders: enough to tell φ at the nearest point
   Amplitudes amplitude;  ///< b of (C4), by WaveIndex; of the wave that arrives, then of the velocities
+  std::vector<double> angle;
+  Eigen::MatrixXcd far;  ///< f of (C13) at these, columns as of `amplitude`
 };
 
 /// The fewest gap functions with which doubling changes the single cylinders by less than the tolerance at both ends of

@@ -8,6 +8,7 @@
 #include "deep.hpp"
 #include "hydro/base/parallel.hpp"
 #include "model.hpp"
+#include "potential/operations/where_needed.hpp"
 #include "potential/solver_request.hpp"
 #include "request.hpp"
 #include "self_check.hpp"
@@ -95,43 +96,107 @@ void add_notes(const Solution& s, const Water& water, double tolerance, Coeffici
         fmt::format("infinite depth is taken as {:.4g} m or more: an error below 1e-4", s.check.effective_depth));
 }
 
+/// What is asked of every frequency.
+struct Asked {
+  const std::vector<CylinderBody>& bodies;
+  const Water& water;
+  const std::vector<double>& heading;
+  const Options& options;
+  Resolution resolution;
+};
+
 /// Everything that is solved, in one pool of work.
 struct Work {
-  std::vector<OneFrequency> results;
-  std::vector<std::size_t> doubled;  ///< frequencies that are repeated with doubled resolution
-  std::vector<OneFrequency> finer;   ///< those
+  std::vector<double> omega;
+  std::vector<OneFrequency> results;  ///< of each
+  std::vector<std::size_t> doubled;   ///< frequencies that are repeated with doubled resolution
+  std::vector<OneFrequency> finer;    ///< those
   MatrixXd A_inf;
 };
 
-Work do_work(const std::vector<CylinderBody>& bodies, const Water& water, const std::vector<double>& omega,
-             const std::vector<double>& heading, const Options& options, const Resolution& resolution) {
+/// `before`: pieces that are done already. Where there are any, nothing is doubled and A(∞) is not asked again.
+Work do_work(const Asked& asked, const std::vector<double>& omega, int before = 0) {
   Work w;
-  w.doubled = frequencies_to_double(omega.size(), options.doubled_frequencies);
+  w.omega = omega;
+  if (before == 0) w.doubled = frequencies_to_double(omega.size(), asked.options.doubled_frequencies);
   w.results.resize(omega.size());
   w.finer.resize(w.doubled.size());
-  const Models models(bodies, water, omega, resolution);
+  const Models models(asked.bodies, asked.water, omega, asked.resolution);
   std::unique_ptr<Models> finer_models;
-  if (!w.doubled.empty()) finer_models = std::make_unique<Models>(bodies, water, omega, resolution.doubled());
+  if (!w.doubled.empty())
+    finer_models = std::make_unique<Models>(asked.bodies, asked.water, omega, asked.resolution.doubled());
 
   // The dearest first: doubled frequencies, then the rest and the limit.
-  const std::size_t all = w.finer.size() + omega.size() + 1;
+  const std::size_t all = w.finer.size() + omega.size() + (before == 0 ? 1 : 0);
   std::mutex told;
-  int done = 0;
-  in_parallel(all, potential::thread_count(options.threads, all), [&](std::size_t i) {
+  int done = before;
+  in_parallel(all, potential::thread_count(asked.options.threads, all), [&](std::size_t i) {
     if (i < w.finer.size()) {
       const double at = omega[w.doubled[i]];
-      w.finer[i] = finer_models->at(at)->at(at, heading);
-    } else if (i + 1 < all) {
+      w.finer[i] = finer_models->at(at)->at(at, asked.heading);
+    } else if (i < w.finer.size() + omega.size()) {
       const std::size_t n = i - w.finer.size();
-      w.results[n] = models.at(omega[n])->at(omega[n], heading);
+      w.results[n] = models.at(omega[n])->at(omega[n], asked.heading);
     } else {
       w.A_inf = models.at(infinite)->added_mass_at_infinity();
     }
     const std::lock_guard<std::mutex> lock(told);
     ++done;
-    if (options.progress) options.progress(done, static_cast<int>(all));
+    if (asked.options.progress) asked.options.progress(done, before + static_cast<int>(all));
   });
   return w;
+}
+
+/// Everything but the loads.
+Coefficients without_loads(const Asked& asked) {
+  Coefficients c;
+  c.water = asked.water;
+  c.source = source_text(asked.bodies);
+  fill_bodies(asked.bodies, asked.water, c);
+  return c;
+}
+
+Coefficients with_loads(const Work& w, const std::vector<double>& heading, Coefficients c) {
+  c.omega = w.omega;
+  c.heading = heading;
+  c.A_inf = w.A_inf;
+  c.X.assign(heading.size(), MatrixXcd(c.modes(), static_cast<Index>(w.omega.size())));
+  for (std::size_t i = 0; i < w.omega.size(); ++i) {
+    c.A.push_back(w.results[i].A);
+    c.B.push_back(w.results[i].B);
+    for (std::size_t h = 0; h < heading.size(); ++h)
+      c.X[h].col(static_cast<Index>(i)) = w.results[i].X.col(static_cast<Index>(h));
+  }
+  return c;
+}
+
+void add(Work more, Work& all) {
+  for (std::size_t i = 0; i < more.omega.size(); ++i) {
+    const auto at = std::upper_bound(all.omega.begin(), all.omega.end(), more.omega[i]) - all.omega.begin();
+    all.omega.insert(all.omega.begin() + at, more.omega[i]);
+    all.results.insert(all.results.begin() + at, std::move(more.results[i]));
+    for (std::size_t& d : all.doubled)
+      if (static_cast<std::ptrdiff_t>(d) >= at) ++d;
+  }
+}
+
+/// `first`, and as many frequencies between them as are needed; what was foreseen of them is in `chosen`.
+Work work_where_needed(const Asked& asked, const std::vector<double>& first, const Coefficients& bodies,
+                       potential::ChosenFrequencies& chosen) {
+  Work all;
+  chosen = potential::choose_frequencies(first, *asked.options.frequency_tolerance,
+                                         [&](const std::vector<double>& omega) -> Coefficients {
+                                           const int before = static_cast<int>(all.results.size() + all.finer.size());
+                                           Work w = do_work(asked, omega, before);
+                                           if (before > 0) w.A_inf = all.A_inf;
+                                           Coefficients c = with_loads(w, asked.heading, bodies);
+                                           if (before > 0)
+                                             add(std::move(w), all);
+                                           else
+                                             all = std::move(w);
+                                           return c;
+                                         });
+  return all;
 }
 
 }  // namespace
@@ -140,29 +205,29 @@ Solution solve(const std::vector<CylinderBody>& bodies, const Water& water, cons
                const std::vector<double>& heading, const Options& options) {
   check(bodies, water.depth);
   check_request(omega, heading, options);
-  const Resolution resolution{choose_gap_functions(bodies, water, omega, options.tolerance),
-                              share_of_tolerance * options.tolerance, options.equations};
-  const Work w = do_work(bodies, water, omega, heading, options, resolution);
+  const Asked asked{bodies,
+                    water,
+                    heading,
+                    options,
+                    {choose_gap_functions(bodies, water, omega, options.tolerance),
+                     share_of_tolerance * options.tolerance, options.equations}};
+  const Coefficients known = without_loads(asked);
+  potential::ChosenFrequencies chosen;
+  const Work w = options.frequency_tolerance ? work_where_needed(asked, omega, known, chosen) : do_work(asked, omega);
   Solution s;
   Coefficients& c = s.coefficients;
-  c.water = water;
-  c.omega = omega;
-  c.heading = heading;
-  c.source = source_text(bodies);
-  fill_bodies(bodies, water, c);
-  c.X.assign(heading.size(), MatrixXcd(c.modes(), static_cast<Index>(omega.size())));
-  for (std::size_t i = 0; i < omega.size(); ++i) {
-    c.A.push_back(w.results[i].A);
-    c.B.push_back(w.results[i].B);
-    for (std::size_t h = 0; h < heading.size(); ++h)
-      c.X[h].col(static_cast<Index>(i)) = w.results[i].X.col(static_cast<Index>(h));
-  }
-  c.A_inf = w.A_inf;
+  c = with_loads(w, heading, known);
   s.check = self_check(w.results, w.finer, w.doubled);
-  s.check.gap_functions = resolution.gap_functions;
+  s.check.gap_functions = asked.resolution.gap_functions;
   s.check.effective_depth = effective_water(bodies, water, omega.back()).depth.metres();
-  for (const std::size_t i : w.doubled) s.check.doubling_omega.push_back(omega[i]);
+  for (const std::size_t i : w.doubled) s.check.doubling_omega.push_back(w.omega[i]);
   add_notes(s, water, options.tolerance, c);
+  if (options.frequency_tolerance) {
+    s.check.solved_omega = w.omega;
+    s.check.unseen = chosen.unseen;
+    c = potential::with_frequencies_between(c, *options.frequency_tolerance);
+    c.notes.push_back(potential::note_of(chosen, c));
+  }
   c.validate();
   return s;
 }

@@ -65,7 +65,7 @@ double nearest_outside(const std::vector<Cylinder>& cylinders, const Eigen::Matr
 
 MatrixXcd potentials_at_surface(const std::vector<Cylinder>& cylinders, const VerticalModes& modes,
                                 const Channels& channels, const Amplitudes& sent_out, const Eigen::MatrixX2d& point,
-                                const std::vector<bool>& known, int vertical, int threads) {
+                                const std::vector<bool>& known, int from, int to, int threads) {
   const WaveIndex at(channels);
   std::vector<RadialScales> scale;
   for (const Cylinder& c : cylinders) scale.push_back(radial_scales(modes, c.radius, channels));
@@ -74,10 +74,10 @@ MatrixXcd potentials_at_surface(const std::vector<Cylinder>& cylinders, const Ve
     const auto row = static_cast<Index>(p);
     Eigen::RowVectorXcd sum = Eigen::RowVectorXcd::Zero(sent_out.cols());
     for (std::size_t c = 0; c < cylinders.size(); ++c) {
-      const Eigen::Vector2d from = point.row(row).transpose() - cylinders[c].centre;
-      const double r = from.norm(), theta = std::atan2(from.y(), from.x());
-      const int reach = modes_that_reach(modes, r - cylinders[c].radius, std::min(vertical, channels.vertical()));
-      for (int n = 0; n < reach; ++n) {
+      const Eigen::Vector2d away = point.row(row).transpose() - cylinders[c].centre;
+      const double r = away.norm(), theta = std::atan2(away.y(), away.x());
+      const int reach = modes_that_reach(modes, r - cylinders[c].radius, to);
+      for (int n = from; n < reach; ++n) {
         const int M = channels.order[static_cast<std::size_t>(n)];
         std::vector<double> scales = scale[c][static_cast<std::size_t>(n)];
         scales.resize(static_cast<std::size_t>(M + 1));
@@ -101,6 +101,20 @@ Eigen::MatrixXd velocities_of(const potential::FieldQuestion& question) {
   out.col(0) = velocity.real();
   out.col(1) = velocity.imag();
   return out;
+}
+
+// About the global origin, in which phases are told.
+std::vector<double> angles_around(const std::vector<Cylinder>& cylinders, double heading, double k, int orders) {
+  double extent = 0;
+  for (const Cylinder& c : cylinders) extent = std::max(extent, c.centre.norm());
+  return potential::angles_around(heading, k, extent, orders);
+}
+
+potential::FarField far_field_of(std::vector<double> angle, const MatrixXcd& f, const VerticalModes& modes,
+                                 const Water& water, double omega) {
+  const Complex elevation = Complex(0, -omega / water.gravity) * modes.wave_at_surface();
+  return {
+      .angle = std::move(angle), .scattered = f.col(0), .radiated = elevation * (f.col(1) + Complex(0, 1) * f.col(2))};
 }
 
 // η = −(iω/g) φ; the unit wave has the elevation Z_0(0) per iω/g.

@@ -17,16 +17,24 @@ std::vector<bool> outside(const std::vector<Cylinder>& cylinders, const Eigen::M
 double nearest_outside(const std::vector<Cylinder>& cylinders, const Eigen::MatrixX2d& point);
 
 /// Σ b Q_n(r) e^{imθ} Z_n(0) over all cylinders, one row a point, one column a column of `sent_out`, whose rows are as
-/// WaveIndex(channels) has them. Of modes only the first `vertical`. Rows of points that are not `known` are 0.
+/// WaveIndex(channels) has them. Of modes only those from `from` to before `to`. Rows of points that are not `known`
+/// are 0.
 Eigen::MatrixXcd potentials_at_surface(const std::vector<Cylinder>& cylinders, const VerticalModes& modes,
                                        const Channels& channels, const Amplitudes& sent_out,
-                                       const Eigen::MatrixX2d& point, const std::vector<bool>& known, int vertical,
+                                       const Eigen::MatrixX2d& point, const std::vector<bool>& known, int from, int to,
                                        int threads);
 
 /// What is added to a field by waves that are sent out by the unit wave Z_0(z) e^{−ik…} (first column) and by the real
 /// and the imaginary part of the bodies' velocities per metre of wave (second and third); `known` as it is.
 potential::WaveField field_of(const Eigen::MatrixXcd& at_surface, const VerticalModes& modes, const Water& water,
                               const potential::FieldQuestion& question, std::vector<bool> known);
+
+/// The same far away, of f (C13) at each angle, one column each as `at_surface` has them.
+potential::FarField far_field_of(std::vector<double> angle, const Eigen::MatrixXcd& f, const VerticalModes& modes,
+                                 const Water& water, double omega);
+
+/// Angles for the far field of waves from these cylinders, or circles about hulls, of so many orders.
+std::vector<double> angles_around(const std::vector<Cylinder>& cylinders, double heading, double k, int orders);
 
 /// Velocities per metre of wave, of motions about reference points: the real parts, then the imaginary ones, (6N, 2).
 Eigen::MatrixXd velocities_of(const potential::FieldQuestion& question);

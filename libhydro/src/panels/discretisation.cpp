@@ -93,7 +93,10 @@ std::unique_ptr<const Discretisation> apart(const std::vector<HullBody>& bodies,
 Cost cost_as_asked(const Discretisation& given, const std::vector<double>& omega, std::size_t headings,
                    const Options& options) {
   if (!options.tolerance) return given.cost(omega, headings, options.threads, options.refined_frequencies);
-  return given.graded(omega.back(), usual_gradings)->cost(omega, headings, options.threads, first_samples(options));
+  const auto first = given.graded(omega.back(), usual_gradings);
+  Cost c = first->cost(omega, headings, options.threads, first_samples(options));
+  if (options.frequency_tolerance) c.seconds += first->cost(omega, headings, options.threads, 0).seconds;  // to choose
+  return c;
 }
 
 PanelMesh first_mesh(const PanelMesh& given, const Water& water, double highest, int gradings) {

@@ -1,7 +1,7 @@
 #include "hydro/panels/field.hpp"
 
 #include "discretisation.hpp"
-#include "hydro/base/parallel.hpp"
+#include "potential/solver_request.hpp"
 #include "request.hpp"
 
 namespace hydro::panels {
@@ -11,7 +11,7 @@ potential::WaveField wave_field(const std::vector<HullBody>& bodies, const Water
   check_request({question.omega}, {question.heading}, options);
   const auto given = discretised(bodies, water, {question.omega}, 1, options);
   potential::check(question, bodies.size());
-  const int threads = options.threads > 0 ? options.threads : all_processors();
+  const int threads = potential::thread_count(options.threads, static_cast<std::size_t>(question.point.rows()));
   // Away from hulls the surface does not see how fine their edges are.
   const auto coarse = given->graded(question.omega, 0);
   const potential::WaveField before = coarse->solver()->field(question, threads);

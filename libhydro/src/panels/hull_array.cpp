@@ -90,13 +90,6 @@ std::vector<std::unique_ptr<const Model>> models_in(const Water& water, const Hu
   return out;
 }
 
-cylinders::Grouping each_by_itself(const std::vector<cylinders::Cylinder>& circle, const PartialWaves& waves) {
-  cylinders::Grouping g{{}, waves.channels, waves.channels, 0, 0};
-  for (std::size_t c = 0; c < circle.size(); ++c) g.members.push_back({c});
-  g.steps = cylinders::expected_steps(waves.modes, circle);
-  return g;
-}
-
 /// What is extrapolated are T, R, E and L of each kind, one after the other.
 class ArraySolver : public Solver {
  public:
@@ -144,10 +137,15 @@ class ArraySolver : public Solver {
     const MatrixXd velocity = places_->motion * cylinders::velocities_of(question);
     const auto there = all.arrived({question.heading}, velocity, cylinders::Equations::automatic);
     const std::vector<bool> known = cylinders::outside(places_->circle, question.point);
-    return cylinders::field_of(
-        cylinders::potentials_at_surface(places_->circle, waves.modes, waves.channels, all.sent_out(there.a, velocity),
-                                         question.point, known, waves.channels.vertical(), threads),
+    const cylinders::Amplitudes sent = all.sent_out(there.a, velocity);
+    const std::vector<double> angle =
+        cylinders::angles_around(places_->circle, question.heading, waves.modes.k, waves.channels.highest_order());
+    potential::WaveField out = cylinders::field_of(
+        cylinders::potentials_at_surface(places_->circle, waves.modes, waves.channels, sent, question.point, known, 0,
+                                         waves.channels.vertical(), threads),
         waves.modes, water_, question, known);
+    out.far = cylinders::far_field_of(angle, all.far_field(sent, angle), waves.modes, water_, question.omega);
+    return out;
   }
 
  private:
@@ -172,7 +170,7 @@ class ArraySolver : public Solver {
             lattice ? &*lattice : nullptr,
             compound,
             waves.modes,
-            each_by_itself(circle, waves),
+            cylinders::each_alone(waves.channels, waves.modes, circle),
             precision * threshold_};
   }
   OneFrequency answer_of(const Circles& circle, const Kinds& kind, const OnLattice& lattice, const MatrixXd& motion,
@@ -360,6 +358,7 @@ Cost cost_of_kinds(const std::vector<PanelMesh>& mesh, std::size_t channels, boo
 
 Cost HullArray::cost(const std::vector<double>& omega, std::size_t headings, int threads, int refined) const {
   Cost out{};
+  out.frequencies = static_cast<int>(omega.size());
   const auto fine = frequencies_to_refine(omega.size(), refined);
   std::vector<PanelMesh> cut;
   for (const PanelMesh& m : mesh_)
@@ -367,9 +366,9 @@ Cost HullArray::cost(const std::vector<double>& omega, std::size_t headings, int
   const double columns = static_cast<double>(places_->motion.cols()) + static_cast<double>(headings);
   for (std::size_t i = 0; i < omega.size(); ++i) {
     const PartialWaves waves = partial_waves(*places_, water_, omega[i], threshold_);
-    const auto between = cylinders::equations_cost(each_by_itself(places_->circle, waves), places_->circle.size(),
-                                                   places_->lattice ? &*places_->lattice : nullptr, columns,
-                                                   cylinders::Equations::automatic);
+    const auto between = cylinders::equations_cost(
+        cylinders::each_alone(waves.channels, waves.modes, places_->circle), places_->circle.size(),
+        places_->lattice ? &*places_->lattice : nullptr, columns, cylinders::Equations::automatic);
     const auto channels = static_cast<std::size_t>(waves.channels.count());
     const auto add = [&](const std::vector<PanelMesh>& mesh) {
       const Cost kinds = cost_of_kinds(mesh, channels, water_.depth.is_infinite());

@@ -72,16 +72,18 @@ MatrixXcd Model::loads(const MatrixXcd& potential) const {
   return (all_.area.asDiagonal() * all_.normal).transpose().cast<Complex>() * potential;
 }
 
-MatrixXcd Model::haskind(double omega, double k, const MatrixXcd& motion, const std::vector<double>& heading) const {
+/// iωρ ∬ (φ_I v_n − φ ∂φ_I/∂n) dS of each potential φ with its velocity v_n along the normals, one row each.
+MatrixXcd Model::haskind(double omega, double k, const MatrixXcd& potential, const MatrixXd& velocity,
+                         const std::vector<double>& heading) const {
   const MatrixXcd wave = incident(omega, k, heading).topRows(all_.point.rows());
-  MatrixXcd out = loads(wave);
+  MatrixXcd out = (all_.area.asDiagonal() * velocity).transpose().cast<Complex>() * wave;
   for (Index b = 0; b < wave.cols(); ++b) {
     const double c = std::cos(heading[static_cast<std::size_t>(b)]), s = std::sin(heading[static_cast<std::size_t>(b)]);
     for (Index i = 0; i < wave.rows(); ++i) {
       const double z = all_.point(i, 2), K = omega * omega / water_.gravity;
       const double rise = water_.depth.is_infinite() ? K : k * std::tanh(k * (z + water_.depth.metres()));
       const Complex slope = -i_unit * k * (c * all_.n(i, 0) + s * all_.n(i, 1)) + rise * all_.n(i, 2);
-      out.col(b) -= (all_.area(i) * slope * wave(i, b)) * motion.row(i).transpose();
+      out.col(b) -= (all_.area(i) * slope * wave(i, b)) * potential.row(i).transpose();
     }
   }
   return i_unit * omega * water_.density * out;
@@ -91,9 +93,25 @@ MatrixXd Model::damping_far(double omega, double k, const MatrixXcd& motion) con
   const int count = 32 + 2 * static_cast<int>(k * reach_);  // of a periodic function: exact once it holds its harmonics
   std::vector<double> around;
   for (int i = 0; i < count; ++i) around.push_back(2 * pi * i / count);
-  const MatrixXcd X = haskind(omega, k, motion, around);
+  const MatrixXcd X = haskind(omega, k, motion, all_.normal, around);
   const double speed = waves::group_velocity(omega, water_);
   return (k / (8 * pi * water_.density * water_.gravity * speed) * 2 * pi / count) * (X * X.adjoint()).real();
+}
+
+// What goes to θ is what a wave that comes from there meets (Haskind); that bodies are held still leaves their total
+// potential without velocity, as field_of() has it.
+potential::FarField Model::far_field(const Potentials& phi, double omega, double heading,
+                                     const Eigen::VectorXcd& velocity) const {
+  const double k = waves::wavenumber(omega, water_), speed = waves::group_velocity(omega, water_);
+  potential::FarField out;
+  out.angle = potential::angles_around(heading, k, all_.point.leftCols<2>().rowwise().norm().maxCoeff(), 6);
+  std::vector<double> against;
+  for (const double angle : out.angle) against.push_back(angle + pi);
+  const double factor = -k / (4 * water_.density * water_.gravity * speed);
+  const MatrixXd held = MatrixXd::Zero(phi.wave.rows(), 1);
+  out.scattered = factor * haskind(omega, k, phi.wave, held, against).transpose();
+  out.radiated = factor * haskind(omega, k, phi.motion, all_.normal, against).transpose() * velocity;
+  return out;
 }
 
 // As K → ∞ there are no waves, and so no irregular frequencies for a lid to take away.
@@ -121,7 +139,7 @@ OneFrequency Model::at(double omega, const std::vector<double>& heading) const {
   out.A = -water_.density * L.real();
   out.B = omega * water_.density * L.imag();
   out.X = i_unit * omega * water_.density * loads(phi.wave);
-  out.X_far = haskind(omega, k, phi.motion, heading);
+  out.X_far = haskind(omega, k, phi.motion, all_.normal, heading);
   out.B_far = damping_far(omega, k, phi.motion);
   return out;
 }

@@ -24,6 +24,9 @@ class Model {
   Potentials potentials(double K, const Eigen::MatrixXcd& incident) const;
   /// The same in a wave of unit amplitude.
   Potentials in_wave(double omega, double heading) const;
+  /// Waves far away of bodies with these velocities, as in_wave() has their potentials. (G22)
+  potential::FarField far_field(const Potentials& phi, double omega, double heading,
+                                const Eigen::VectorXcd& velocity) const;
   /// The greatest distance along the water between panels, with room for their corners, m.
   double reach() const { return reach_; }
   /// L = ∬ φ n dS, row: load on, column: potential at the centres of all panels.
@@ -31,7 +34,7 @@ class Model {
 
  private:
   Eigen::MatrixXcd incident(double omega, double k, const std::vector<double>& heading) const;
-  Eigen::MatrixXcd haskind(double omega, double k, const Eigen::MatrixXcd& motion,
+  Eigen::MatrixXcd haskind(double omega, double k, const Eigen::MatrixXcd& potential, const Eigen::MatrixXd& velocity,
                            const std::vector<double>& heading) const;
   Eigen::MatrixXd damping_far(double omega, double k, const Eigen::MatrixXcd& motion) const;
   double profile(double k, double z) const;

@@ -44,6 +44,7 @@ void check_request(const std::vector<double>& omega, const std::vector<double>& 
   potential::check_solver_request(omega, heading, options.threads);
   require(!options.tolerance || (*options.tolerance > 0 && *options.tolerance < 1),
           "the tolerance must be between 0 and 1, got {}", options.tolerance.value_or(0));
+  potential::check_frequency_tolerance(options.frequency_tolerance, omega.size());
   require(options.refined_frequencies >= 0, "the number of frequencies to refine must not be negative, got {}",
           options.refined_frequencies);
 }
@@ -105,6 +106,7 @@ Cost cost_of(const PanelMesh& mesh, std::size_t bodies, std::size_t frequencies,
   const std::size_t fine = frequencies_to_refine(frequencies, refined_frequencies).size();
   const int threads = potential::thread_count(asked_threads, frequencies + fine);
   Cost c{.panels = mesh.hull_panels(),
+         .frequencies = static_cast<int>(frequencies),
          .unknowns = static_cast<int>(hull + lid),
          .systems = static_cast<int>(systems),
          .refined_unknowns = fine > 0 ? static_cast<int>(4 * hull + lid) : 0,

@@ -6,12 +6,14 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <map>
 #include <mutex>
 
 #include "controlled.hpp"
-#include "hydro/base/dense.hpp"
 #include "hydro/base/parallel.hpp"
 #include "hydro/hydrostatics/immersion.hpp"
+#include "potential/modes.hpp"
+#include "potential/operations/where_needed.hpp"
 #include "potential/solver_request.hpp"
 #include "refine.hpp"
 #include "request.hpp"
@@ -95,9 +97,12 @@ void note_flat_faces(const std::vector<HullBody>& bodies, Coefficients& c) {
                     100 * lacking / all));
 }
 
+/// Answers that are known already, by frequency.
+using Known = std::map<double, OneFrequency>;
+
 /// The mesh as it is given; its error is told if frequencies are to be refined.
 Work plain_work(const Discretisation& given, const std::vector<double>& omega, const std::vector<double>& heading,
-                const Options& options) {
+                const Options& options, const Known& known) {
   const auto solver = given.solver();
   std::unique_ptr<const Solver> fine, more;
   std::vector<std::size_t> again;  // frequencies that are repeated: finer, and with more partial waves
@@ -114,8 +119,12 @@ Work plain_work(const Discretisation& given, const std::vector<double>& omega, c
     pieces.emplace_back([&, i] { finer[i] = fine->at(omega[again[i]], heading); });
   for (std::size_t i = 0; i < with_more.size(); ++i)
     pieces.emplace_back([&, i] { with_more[i] = more->at(omega[again[i]], heading); });
-  for (std::size_t i = 0; i < omega.size(); ++i)
-    pieces.emplace_back([&, i] { w.results[i] = solver->at(omega[i], heading); });
+  for (std::size_t i = 0; i < omega.size(); ++i) {
+    if (const auto before = known.find(omega[i]); before != known.end())
+      w.results[i] = before->second;
+    else
+      pieces.emplace_back([&, i] { w.results[i] = solver->at(omega[i], heading); });
+  }
   pieces.emplace_back([&] { w.A_inf = solver->added_mass_limit(std::numeric_limits<double>::infinity()); });
   if (given.has_zero()) pieces.emplace_back([&] { w.A_zero = solver->added_mass_limit(0); });
   std::mutex told;
@@ -137,15 +146,6 @@ Work plain_work(const Discretisation& given, const std::vector<double>& omega, c
   return w;
 }
 
-/// The nearest matrix without negative eigenvalues, entries being measured against the largest of their modes (P11):
-/// a small damping is a difference of large pressures, and panels leave it below zero now and then. Were a small mode
-/// measured against itself alone, its error would be put on the large ones that it is coupled with.
-MatrixXd passive(const MatrixXd& B, const Eigen::VectorXd& size) {
-  const Eigen::VectorXd scale = size.cwiseSqrt();
-  const MatrixXd scaled = scale.cwiseInverse().asDiagonal() * B * scale.cwiseInverse().asDiagonal();
-  return scale.asDiagonal() * dense::positive_part(scaled) * scale.asDiagonal();
-}
-
 /// Fills A, B and X, and returns the largest change of B that passivity needed, (P11).
 double fill(const Work& w, const std::vector<double>& omega, const std::vector<double>& heading, Coefficients& c) {
   const auto symmetric = [](const MatrixXd& M) { return MatrixXd((M + M.transpose()) / 2); };
@@ -157,7 +157,7 @@ double fill(const Work& w, const std::vector<double>& omega, const std::vector<d
   for (std::size_t i = 0; i < omega.size(); ++i) {
     c.A.push_back(symmetric(w.results[i].A));
     const MatrixXd B = symmetric(w.results[i].B);
-    c.B.push_back(symmetric(passive(B, size)));
+    c.B.push_back(symmetric(potential::nearest_passive(B, size)));
     changed = std::max(changed, (scale.asDiagonal() * (c.B.back() - B) * scale.asDiagonal()).cwiseAbs().maxCoeff());
     for (std::size_t h = 0; h < heading.size(); ++h)
       c.X[h].col(static_cast<Index>(i)) = w.results[i].X.col(static_cast<Index>(h));
@@ -167,26 +167,76 @@ double fill(const Work& w, const std::vector<double>& omega, const std::vector<d
   return changed;
 }
 
+/// By panels of one size: the mesh's own, whose answers are then `known`, or the coarsest by which an error is
+/// controlled.
+potential::ChosenFrequencies where_needed(const Discretisation& given, const std::vector<double>& first,
+                                          const std::vector<double>& heading, const Options& options,
+                                          const Coefficients& bodies, Known& known) {
+  const auto coarsest = options.tolerance ? given.graded(first.back(), usual_gradings) : nullptr;
+  const Discretisation& mesh = coarsest ? *coarsest : given;
+  const auto solver = mesh.solver();
+  Work w;
+  w.A_inf = solver->added_mass_limit(std::numeric_limits<double>::infinity());
+  w.check.length = mesh.length();
+  std::mutex told;
+  int done = 0, all = 0;
+  return potential::choose_frequencies(
+      first, *options.frequency_tolerance, [&](const std::vector<double>& omega) -> Coefficients {
+        w.results.assign(omega.size(), {});
+        all += static_cast<int>(omega.size());
+        in_parallel(omega.size(), potential::thread_count(options.threads, omega.size()), [&](std::size_t i) {
+          w.results[i] = solver->at(omega[i], heading);
+          const std::lock_guard<std::mutex> lock(told);
+          if (options.progress) options.progress(++done, all);
+        });
+        if (!coarsest)
+          for (std::size_t i = 0; i < omega.size(); ++i) known[omega[i]] = w.results[i];
+        Coefficients c = bodies;
+        fill(w, omega, heading, c);
+        return c;
+      });
+}
+
+/// Frequencies by which cost is told: as asked, or about as many as will be chosen.
+std::vector<double> expected(const std::vector<HullBody>& bodies, const Water& water, const std::vector<double>& omega,
+                             const Options& options) {
+  if (!options.frequency_tolerance) return omega;
+  Eigen::AlignedBox2d box;
+  for (const HullBody& body : bodies)
+    for (const Eigen::Vector3d& v : body.hull.vertices()) box.extend(v.head<2>().eval());
+  return potential::expected_frequencies(omega, *options.frequency_tolerance, box.diagonal().norm(), water);
+}
+
 }  // namespace
 
 Solution solve(const std::vector<HullBody>& bodies, const Water& water, const std::vector<double>& omega,
                const std::vector<double>& heading, const Options& options) {
   check_request(omega, heading, options);
-  const auto given = discretised(bodies, water, omega, heading.size(), options);
+  const std::vector<double> at_about = expected(bodies, water, omega, options);
+  const auto given = discretised(bodies, water, at_about, heading.size(), options);
   const bool controlled = options.tolerance.has_value();
   if (!controlled) given->require_short_panels(omega.back());
-  require_memory(cost_as_asked(*given, omega, heading.size(), options));
-  const Work w =
-      controlled ? controlled_work(*given, omega, heading, options) : plain_work(*given, omega, heading, options);
+  require_memory(cost_as_asked(*given, at_about, heading.size(), options));
   Solution s;
-  s.check = w.check;
   Coefficients& c = s.coefficients;
   c.water = water;
-  c.source = fmt::format("panels: {} on {} {}", s.check.panels, bodies.size(), bodies.size() == 1 ? "hull" : "hulls");
   fill_bodies(bodies, water, c);
-  s.check.passivity = fill(w, omega, heading, c);
+  potential::ChosenFrequencies chosen{.omega = omega, .unseen_omega = {}};
+  Known by_choosing;
+  if (options.frequency_tolerance) chosen = where_needed(*given, omega, heading, options, c, by_choosing);
+  const Work w = controlled ? controlled_work(*given, chosen.omega, heading, options)
+                            : plain_work(*given, chosen.omega, heading, options, by_choosing);
+  s.check = w.check;
+  c.source = fmt::format("panels: {} on {} {}", s.check.panels, bodies.size(), bodies.size() == 1 ? "hull" : "hulls");
+  s.check.passivity = fill(w, chosen.omega, heading, c);
   add_notes(s.check, c);
   if (!std::isnan(s.check.estimate)) note_flat_faces(bodies, c);
+  if (options.frequency_tolerance) {
+    s.check.solved_omega = chosen.omega;
+    s.check.unseen = chosen.unseen;
+    c = potential::with_frequencies_between(c, *options.frequency_tolerance);
+    c.notes.push_back(potential::note_of(chosen, c));
+  }
   c.validate();
   return s;
 }
@@ -194,7 +244,9 @@ Solution solve(const std::vector<HullBody>& bodies, const Water& water, const st
 Cost cost(const std::vector<HullBody>& bodies, const Water& water, const std::vector<double>& omega,
           const std::vector<double>& heading, const Options& options) {
   check_request(omega, heading, options);
-  return cost_as_asked(*discretised(bodies, water, omega, heading.size(), options), omega, heading.size(), options);
+  const std::vector<double> at_about = expected(bodies, water, omega, options);
+  return cost_as_asked(*discretised(bodies, water, at_about, heading.size(), options), at_about, heading.size(),
+                       options);
 }
 
 }  // namespace hydro::panels

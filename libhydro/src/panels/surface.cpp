@@ -74,6 +74,7 @@ potential::WaveField field_of(const Model& model, const Water& water, const pote
                            .scattered = Eigen::VectorXcd::Zero(points),
                            .radiated = Eigen::VectorXcd::Zero(points),
                            .known = outside(mesh, question.point)};
+  out.far = model.far_field(phi, question.omega, question.heading, velocity);
   const Complex elevation = Complex(0, -question.omega / water.gravity) / (4 * pi);
   in_parallel(out.known.size(), threads, [&](std::size_t i) {
     if (!out.known[i]) return;

@@ -2,6 +2,7 @@
 /// \file  Private: what operations on whole sets of matrices share.
 #include <Eigen/Core>
 
+#include <complex>
 #include <vector>
 
 #include "hydro/potential/coefficients.hpp"
@@ -26,6 +27,18 @@ Eigen::VectorXd mode_sizes(const std::vector<Eigen::MatrixXd>& matrices);
 
 /// Largest |D_ij| / sqrt(s_i s_j) (P11); 0 where nothing has a size.
 double relative_size(const Eigen::MatrixXd& difference, const Eigen::VectorXd& size);
+
+/// The nearest matrix without negative eigenvalues, entries being measured against the largest of their modes, `size`
+/// (P11): a small damping is a difference of large numbers, and what is computed leaves it below zero now and then.
+/// Were a small mode measured against itself alone, its error would be put on the large ones that it is coupled with.
+Eigen::MatrixXd nearest_passive(const Eigen::MatrixXd& B, const Eigen::VectorXd& size);
+
+/// Phase of the way to (x, y) of a wave of this wavenumber, 1/m: e^{−ik(x cos β + y sin β)}.
+std::complex<double> way(double k, double heading, double x, double y);
+
+/// X with the phase of the waves' way to the place of each body, one a body, taken out (`sign` −1) or put in (+1).
+std::vector<Eigen::MatrixXcd> turned_by_way(const Coefficients& c, const std::vector<Eigen::Vector3d>& place,
+                                            double sign);
 
 /// The matrix of six numbers for each body, the same for all, on the diagonal: size (6N, 6N).
 Eigen::MatrixXd for_every_body(const Matrix6& one, int bodies);

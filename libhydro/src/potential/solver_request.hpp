@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "hydro/base/error.hpp"
@@ -26,6 +27,19 @@ inline void check_solver_request(const std::vector<double>& omega, const std::ve
   require(omega.front() > 0, "a frequency must be positive, got {} rad/s", omega.front());
   require_increasing(heading, "headings", "rad");
   require(threads >= 0 && threads <= 1024, "the number of threads must be between 0 and 1024, got {}", threads);
+}
+
+/// Frequencies that are solved before others are chosen between them; fewer foresee nothing.
+inline constexpr std::size_t least_first_frequencies = 5;
+
+/// \throws InputError where frequencies are to be chosen from too few, or to a tolerance out of range
+inline void check_frequency_tolerance(const std::optional<double>& tolerance, std::size_t frequencies) {
+  if (!tolerance) return;
+  require(*tolerance >= 1e-6 && *tolerance <= 0.1,
+          "the tolerance between frequencies must be between 1e-6 and 0.1, got {}", *tolerance);
+  require(frequencies >= least_first_frequencies,
+          "where frequencies are chosen, {} at least are stated to begin with, got {}", least_first_frequencies,
+          frequencies);
 }
 
 /// Threads for so many pieces of work.

@@ -121,6 +121,24 @@ TEST(CylindersInAScene, HaveTheirCostToldBeforeTheyAreSolved) {
   EXPECT_THAT(plan.size(), AllOf(HasSubstr("2 cylinders in 2 bodies"), HasSubstr("MB, about")));
 }
 
+TEST(CylindersInAScene, AreSolvedWhereTheProgramChooses) {
+  const scene::Scene scene = parse(scene_text(cylinders + "frequency_tolerance = 1e-2\n"));
+  const auto bodies = compile::bodies_of_cylinders(scene);
+  const auto plan = compile::plan_cylinders(scene, bodies);
+  EXPECT_THAT(plan.size(), HasSubstr("9 frequencies and more where they are needed, about "));
+  const auto s = compile::solve_cylinders(scene, bodies);
+  EXPECT_LE(s.check.unseen, 1e-2);
+  EXPECT_GT(s.check.solved_omega.size(), 9u);
+  // "Within a factor of two", as plans are meant to be.
+  EXPECT_LE(static_cast<double>(s.check.solved_omega.size()), 2.0 * plan.cost.frequencies);
+  EXPECT_GE(2.0 * static_cast<double>(s.check.solved_omega.size()), plan.cost.frequencies);
+  EXPECT_THAT(s.coefficients.notes.back(), HasSubstr("by rational interpolation"));
+  std::string few = cylinders;
+  few.replace(few.find("9 values"), 8, "4 values");
+  EXPECT_THAT([&] { compile::plan_cylinders(parse(scene_text(few + "frequency_tolerance = 1e-2\n")), bodies); },
+              ThrowsMessage<hydro::InputError>(AllOf(HasSubstr("test.toml:"), HasSubstr("5 at least"))));
+}
+
 TEST(CylindersInAScene, AreSolvedOnceForAllLaterStartsOfTheProgram) {
   const support::KeptFolder kept(std::filesystem::path(testing::TempDir()) / "kept_cylinders");
   const scene::Scene scene = parse(scene_text(cylinders));
@@ -138,6 +156,9 @@ TEST(CylindersInAScene, AreSolvedOnceForAllLaterStartsOfTheProgram) {
   scene::Scene finer = scene;
   finer.accuracy.value /= 10;
   EXPECT_GT(compile::plan_cylinders(finer, bodies).seconds(), 0);
+  scene::Scene chosen = scene;
+  for (auto& body : chosen.bodies) body.hydrodynamics->cylinders->frequency_tolerance = 0.01;
+  EXPECT_GT(compile::plan_cylinders(chosen, bodies).seconds(), 0);
 }
 
 TEST(CylindersInAScene, TellWhichAreSolvedTogetherOnlyIfTheyAskForTheSame) {

@@ -276,6 +276,8 @@ TEST(HullsInAScene, AreRefusedWithPlaceAndRemedyWhereSomethingIsWrong) {
       {with("hull.obj"), cylinder, {"cylinders", "mesh"}},
       {"file = \"a.nc\"\nmesh_tolerance = 0.1\n", "", {"mesh_tolerance", "mesh"}},
       {with("hull.obj", "lid = \"no\"\n"), "", {"lid", "none"}},
+      {with("hull.obj", "frequency_tolerance = 0.01\n"), "", {"test.toml:16:8", "5 at least", "got 3"}},
+      {"file = \"a.nc\"\nfrequency_tolerance = 0.1\n", "", {"frequency_tolerance", "mesh"}},
   };
   for (const Wrong& wrong : all) {
     SCOPED_TRACE(wrong.keys);

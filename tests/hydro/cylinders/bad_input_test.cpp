@@ -78,6 +78,18 @@ TEST(CylinderInput, RefusesWavesTooShortForAnArray) {
               ThrowsMessage<InputError>(AllOf(HasSubstr("8 rad/s"), HasSubstr("no digit"), HasSubstr("too short"))));
 }
 
+TEST(CylinderInput, RefusesToChooseFrequenciesFromFewOrBeyondItsOwnError) {
+  const auto choosing = [](std::vector<double> omega, double tolerance, double between) {
+    return [=] {
+      solve({single(1, 1)}, tank(), omega, {}, {.tolerance = tolerance, .frequency_tolerance = between, .threads = 1});
+    };
+  };
+  EXPECT_THAT(choosing({1, 2, 3, 4}, 1e-4, 1e-2), ThrowsMessage<InputError>(HasSubstr("5 at least")));
+  EXPECT_THAT(choosing({1, 2, 3, 4, 5}, 1e-4, 0.2), ThrowsMessage<InputError>(HasSubstr("between 1e-6 and 0.1")));
+  EXPECT_THAT(choosing({1, 2, 3, 4, 5}, 1e-4, nan), ThrowsMessage<InputError>(HasSubstr("between 1e-6 and 0.1")));
+  EXPECT_THAT(choosing({1, 2, 3, 4, 5}, 1e-3, 1e-3), ThrowsMessage<InputError>(HasSubstr("ten times that")));
+}
+
 TEST(CylinderInput, RefusesADepthThatIsTooManyDraughts) {
   EXPECT_THAT(solving({single(1, 1e-4)}, tank(100)), ThrowsMessage<InputError>(HasSubstr("terms")));
 }

@@ -64,6 +64,8 @@ TEST(PanelInput, FrequenciesAndOptionsOutOfRangeAreRefused) {
   EXPECT_THAT(refusal(buoy, deep, {2.0, 1.0}), HasSubstr("must increase"));
   EXPECT_THAT(refusal(buoy, deep, {0.0, 1.0}), HasSubstr("must be positive"));
   EXPECT_THAT(refusal(buoy, deep, {1.0}, {.tolerance = 0.0}), HasSubstr("between 0 and 1"));
+  EXPECT_THAT(refusal(buoy, deep, {1.0, 2.0}, {.frequency_tolerance = 1e-2}), HasSubstr("5 at least"));
+  EXPECT_THAT(refusal(buoy, deep, {1.0}, {.frequency_tolerance = 0.5}), HasSubstr("between 1e-6 and 0.1"));
   EXPECT_THAT(refusal({}, deep), HasSubstr("no body"));
 }
 

@@ -48,6 +48,10 @@ TEST(PanelField, OfACylinderIsThatOfTheExactOne) {
   EXPECT_LT(largest(panels.incident - exact.incident, exact.incident), 1e-12);
   EXPECT_LT(largest(panels.scattered - exact.scattered, exact.scattered), 0.03);
   EXPECT_LT(largest(panels.radiated - exact.radiated, exact.radiated), 0.03);
+  const potential::MeanDrift by_panels = mean_drift(panels.far, question.omega, tank),
+                             by_cylinder = mean_drift(exact.far, question.omega, tank);
+  EXPECT_LT((by_panels.force - by_cylinder.force).norm(), 0.03 * by_cylinder.force.norm());
+  EXPECT_NEAR(by_panels.taken, by_cylinder.taken, 0.03 * by_cylinder.scattered);
   EXPECT_GT(largest(exact.scattered, exact.incident), 0.1);  // it is no small part
   EXPECT_GT(largest(exact.radiated, exact.incident), 0.05);
 }
@@ -73,6 +77,9 @@ TEST(PanelField, OfHullsThatStandApartIsTheSameByPartialWaves) {
   // One integrates waves over panels, the other takes them at their centres.
   EXPECT_LT(largest(apart.total() - together.total(), together.total()), 0.01);
   EXPECT_LT(apart.estimate, 0.1);
+  const potential::MeanDrift one = mean_drift(together.far, question.omega, tank),
+                             each = mean_drift(apart.far, question.omega, tank);
+  EXPECT_LT((one.force - each.force).norm(), 0.02 * one.force.norm());  // twice as much in squares
 }
 
 // Twice as many panels again are nearer than the estimate says.

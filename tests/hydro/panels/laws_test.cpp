@@ -2,9 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <optional>
 
 #include "hydro/hydrostatics/shape_meshes.hpp"
 #include "hydro/panels/solve.hpp"
+#include "hydro/potential/operations/operations.hpp"
 
 namespace hydro::panels::laws_test {
 namespace {
@@ -81,6 +83,33 @@ TEST(PanelLaws, TheEstimateIsAboveTheErrorAgainstPanelsOfAThirdOfTheSide) {
     EXPECT_LT(largest / size, coarse.check.estimate) << i;
   }
   EXPECT_LT(coarse.check.estimate, 0.5);
+}
+
+// Of two boxes with a gap between them, whose water resonates; with panels of one size, and extrapolated.
+TEST(PanelLaws, AtChosenFrequenciesMeetTheToleranceBetweenThem) {
+  const std::vector<HullBody> boxes{box({-1.2, -0.6, -0.5}, {-0.2, 0.6, 0.4}, 4),
+                                    box({0.2, -0.6, -0.5}, {1.2, 0.6, 0.4}, 4)};
+  const std::vector<double> first{1.5, 2.2, 3.0, 3.8, 4.4},
+      unseen{1.71, 2.03, 2.61, 3.13, 3.37, 3.61, 3.93, 4.19, 4.31};
+  for (const auto tolerance : {std::optional<double>{}, std::optional<double>{0.1}}) {
+    Options options{.tolerance = tolerance, .frequency_tolerance = 1e-2};
+    const Solution chosen = solve(boxes, tank, first, {0.5}, options);
+    const double unforeseen = chosen.check.unseen;
+    EXPECT_LE(unforeseen, 1e-2);
+    EXPECT_LE(chosen.check.solved_omega.size(), 60u);
+    options.frequency_tolerance.reset();
+    const Solution truth = solve(boxes, tank, unseen, {0.5}, options);
+    const potential::FrequencyTable read(chosen.coefficients, {boxes[0].reference_point, boxes[1].reference_point});
+    potential::Coefficients there = truth.coefficients;
+    for (std::size_t w = 0; w < unseen.size(); ++w) {
+      there.A[w] = read.added_mass(unseen[w]);
+      there.B[w] = read.damping(unseen[w]);
+      there.X[0].col(static_cast<Eigen::Index>(w)) = read.excitation(unseen[w], 0.5);
+    }
+    // Both tables are extrapolated from frequencies of their own: each may be off by its estimate.
+    const double panels = tolerance ? chosen.check.estimate + truth.check.estimate : 0;
+    EXPECT_LE(difference(there, truth.coefficients, truth.check.length), 1e-2 + panels);
+  }
 }
 
 }  // namespace

@@ -37,6 +37,11 @@ struct Options {
   /// (P11). Panels are then refined until the estimate is below it, and the values are those of panels of no size,
   /// extrapolated (G16), (G17). Empty: the values are those of the mesh as it is given.
   std::optional<double> tolerance = {};
+  /// Frequencies are first those that are asked for, and then more between them where responses bend, until what
+  /// interpolation foresees at places not yet seen is met to this, 1e-6 … 0.1 (P36). They are sought with panels of one
+  /// size, the mesh's own or the coarsest that a tolerance takes; the table is made so fine that cubics between its
+  /// frequencies serve (P37). Empty: just those asked for.
+  std::optional<double> frequency_tolerance = {};
   /// At how many frequencies the work is repeated with every panel cut in four; 0: none. One costs as much as 16 to 64.
   /// With a tolerance: to begin with, and five at least.
   int refined_frequencies = 0;
@@ -66,10 +71,12 @@ struct SelfCheck {
   double length = 0;
   int panels = 0;  ///< under water
   int lid_panels = 0;
-  int planes_of_symmetry = 0;  ///< 0, 1 or 2: found in the mesh, and used
-  int kinds = 0;               ///< of hulls, each solved once; 0: all panels together
-  int partial_waves = 0;       ///< between hulls, a hull at most; 0: all panels together
-  double truncation = 0;       ///< part of the estimate: by the partial waves that are left out, measured by more
+  int planes_of_symmetry = 0;        ///< 0, 1 or 2: found in the mesh, and used
+  int kinds = 0;                     ///< of hulls, each solved once; 0: all panels together
+  int partial_waves = 0;             ///< between hulls, a hull at most; 0: all panels together
+  std::vector<double> solved_omega;  ///< rad/s, where frequencies were chosen; the others of the table lie between
+  double unseen = 0;                 ///< the largest miss at the last of those before they were solved (P36)
+  double truncation = 0;             ///< part of the estimate: by the partial waves that are left out, measured by more
 };
 
 struct Solution {
@@ -80,6 +87,7 @@ struct Solution {
 /// What a solution will need, told before it is computed; with a tolerance, its first two meshes.
 struct Cost {
   int panels;            ///< under water
+  int frequencies;       ///< as asked, or about as many as will be chosen
   int unknowns;          ///< of each of `systems` sets of complex equations
   int systems;           ///< 1, 2 or 4 a frequency, by planes of symmetry
   int refined_unknowns;  ///< of the refined mesh; 0: none
@@ -94,7 +102,8 @@ struct Cost {
 /// changed. \throws InputError naming the body: nothing of a hull under water, a hull below the bed, hulls inside one
 /// another, an opening under water; if a frequency is not finite and positive or the lists do not increase; more memory
 /// than the machine has; without a tolerance, panels longer than a fifth of the shortest wave where waves reach them;
-/// a tolerance that cannot be met with three meshes of at most 4000 unknowns a system
+/// fewer than five frequencies where more are to be chosen, or 300 that do not do; a tolerance that cannot be met with
+/// three meshes of at most 4000 unknowns a system
 Solution solve(const std::vector<HullBody>& bodies, const Water& water, const std::vector<double>& omega,
                const std::vector<double>& heading, const Options& options = {});
 

@@ -6,8 +6,9 @@
 #include <Eigen/Core>
 
 #include <complex>
-#include <optional>
 #include <vector>
+
+#include "hydro/potential/far_field.hpp"
 
 namespace hydro::potential {
 
@@ -30,6 +31,7 @@ struct WaveField {
   /// How far the surface is off by what the method truncates: the largest difference at a known point that a finer
   /// computation makes, over the largest elevation.
   double estimate = 0;
+  FarField far = {};  ///< the same waves far away
 
   Eigen::VectorXcd total() const { return incident + scattered + radiated; }
 };

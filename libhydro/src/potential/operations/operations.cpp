@@ -10,14 +10,22 @@
 #include "potential/modes.hpp"
 
 namespace hydro::potential {
-namespace {
-
-/// Phase of the way to (x, y) of a wave of this wavenumber, 1/m: e^{−ik(x cos β + y sin β)}.
 std::complex<double> way(double k, double heading, double x, double y) {
   return std::polar(1.0, -k * (x * std::cos(heading) + y * std::sin(heading)));
 }
 
-}  // namespace
+std::vector<Eigen::MatrixXcd> turned_by_way(const Coefficients& c, const std::vector<Eigen::Vector3d>& place,
+                                            double sign) {
+  std::vector<Eigen::MatrixXcd> X = c.X;
+  for (std::size_t w = 0; w < c.omega.size(); ++w) {
+    const double k = waves::wavenumber(c.omega[w], c.water);
+    for (std::size_t h = 0; h < X.size(); ++h)
+      for (std::size_t b = 0; b < place.size(); ++b)
+        X[h].col(static_cast<Eigen::Index>(w)).segment<6>(6 * static_cast<Eigen::Index>(b)) *=
+            way(sign * k, c.heading[h], place[b].x(), place[b].y());
+  }
+  return X;
+}
 
 Coefficients select(const Coefficients& all, std::span<const int> which) {
   Coefficients out = all;
@@ -83,14 +91,7 @@ FrequencyTable::FrequencyTable(Coefficients c, std::vector<Eigen::Vector3d> orig
   c_.validate();
   require(origin_.size() == c_.body.size(), "{}: {} places are given for {} bodies", c_.source, origin_.size(),
           c_.bodies());
-  X_ = c_.X;
-  for (std::size_t w = 0; w < c_.omega.size(); ++w) {
-    const double k = waves::wavenumber(c_.omega[w], c_.water);
-    for (std::size_t h = 0; h < X_.size(); ++h)
-      for (std::size_t b = 0; b < origin_.size(); ++b)
-        X_[h].col(static_cast<Eigen::Index>(w)).segment<6>(6 * static_cast<Eigen::Index>(b)) *=
-            std::conj(way(k, c_.heading[h], origin_[b].x(), origin_[b].y()));
-  }
+  X_ = turned_by_way(c_, origin_, -1);
 }
 
 namespace {

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "hydro/base/dense.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/potential/operations/operations.hpp"
 #include "potential/modes.hpp"
@@ -34,6 +35,12 @@ double relative_size(const Eigen::MatrixXd& difference, const Eigen::VectorXd& s
       if (size(i) > 0 && size(j) > 0)
         worst = std::max(worst, std::abs(difference(i, j)) / std::sqrt(size(i) * size(j)));
   return worst;
+}
+
+Eigen::MatrixXd nearest_passive(const Eigen::MatrixXd& B, const Eigen::VectorXd& size) {
+  const Eigen::VectorXd scale = size.cwiseSqrt();
+  const Eigen::MatrixXd scaled = scale.cwiseInverse().asDiagonal() * B * scale.cwiseInverse().asDiagonal();
+  return scale.asDiagonal() * dense::positive_part(scaled) * scale.asDiagonal();
 }
 
 Eigen::MatrixXd for_every_body(const Matrix6& one, int bodies) {
