@@ -183,6 +183,11 @@ const Binding<PrepareOptions>& prepare_binding() {
           .optional(positive("longest_gap", dim::time, "rows missing no longer than this are bridged"),
                     &PrepareOptions::longest_gap_s)
           .table("outliers", outliers())
+          .key(effect(
+                   "through_levels",
+                   "channels that know few levels, of coarse potentiometers, become the spline through the middles of "
+                   "their flat parts and of the jumps between them"),
+               &PrepareOptions::through_levels)
           .optional(
               positive("resample", dim::angular_velocity,
                        "\"50 Hz\": all channels are brought to this sampling rate, without delay; kept is what lies "

@@ -115,9 +115,10 @@ void require_picture(const fs::path& file) {
   if (format_of(file) != Format::svg) require_converter(file);
 }
 
-void write_picture(const fs::path& file, const Figure& figure) {
+void write_picture(const fs::path& file, const Figure& figure) { write_svg(file, svg(figure)); }
+
+void write_svg(const fs::path& file, const std::string& drawn) {
   const Format format = format_of(file);
-  const std::string drawn = svg(figure);
   hydro::io::write_atomically(file, format == Format::svg ? drawn : converted(file, drawn, format));
 }
 

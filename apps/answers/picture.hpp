@@ -14,4 +14,7 @@ void require_picture(const std::filesystem::path& file);
 /// hydro::InputError as require_picture(), if `rsvg-convert` fails, and if the file cannot be written
 void write_picture(const std::filesystem::path& file, const Figure& figure);
 
+/// The same of what is an SVG document already.
+void write_svg(const std::filesystem::path& file, const std::string& drawn);
+
 }  // namespace froude::plot

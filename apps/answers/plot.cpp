@@ -8,26 +8,16 @@
 #include <limits>
 
 #include "answers/plot_field.hpp"
+#include "answers/plot_style.hpp"
 #include "hydro/base/error.hpp"
 
 namespace froude::plot {
 namespace {
 
-// Colours that stay apart for colour-blind readers and in print; after the last one the lines repeat dashed.
-constexpr std::array<const char*, 7> colours{"#0072b2", "#d55e00", "#009e73", "#cc79a7",
-                                             "#e69f00", "#56b4e9", "#333333"};
 constexpr double left_margin = 84, right_margin = 24, title_height = 44, panel_bottom = 62, panel_gap = 10;
-constexpr double legend_row = 20, legend_swatch = 28, character_width = 7.2,
-                 scale_width = 110;  // of the 13 px legend text
+constexpr double scale_width = 110;
 
 using Range = std::pair<double, double>;
-using Buffer = fmt::memory_buffer;
-
-template <class... Args>
-void put(Buffer& out, fmt::format_string<Args...> text, Args&&... args) {
-  fmt::format_to(std::back_inserter(out), text, std::forward<Args>(args)...);
-}
-
 bool drawable(double value, Scale scale) { return std::isfinite(value) && (scale == Scale::linear || value > 0); }
 
 double transformed(double value, Scale scale) { return scale == Scale::linear ? value : std::log10(value); }
@@ -66,10 +56,6 @@ struct Frame {
   double py(double value) const { return top + height * (1 - fraction(value, y, y_scale)); }
   bool shows(double a, double b) const { return drawable(a, x_scale) && drawable(b, y_scale); }
 };
-
-std::string axis_text(const Axis& axis) {
-  return escaped(axis.unit.empty() ? axis.label : fmt::format("{} [{}]", axis.label, with_superscripts(axis.unit)));
-}
 
 /// Widens one of the ranges, about its middle, until a pixel is as much of both.
 void equalise(Frame& f) {
@@ -267,10 +253,6 @@ void draw_legend(Buffer& out, const Panel& panel, double left, double top) {
   }
 }
 
-std::size_t characters(const std::string& utf8) {
-  return static_cast<std::size_t>(std::count_if(utf8.begin(), utf8.end(), [](char c) { return (c & 0xC0) != 0x80; }));
-}
-
 /// Width that the widest legend of the figure needs, 0 without legends.
 double legend_width(const Figure& figure) {
   std::size_t longest = 0;
@@ -309,11 +291,6 @@ void draw_panel(Buffer& out, const Panel& panel, const Frame& f, std::size_t num
   if (panel.field) draw_scale(out, *panel.field, f, right);
   draw_legend(out, panel, right + (panel.field ? scale_width : 0), f.top);
 }
-
-constexpr const char* style_sheet =
-    "text{font-family:sans-serif;fill:#222}.title{font-size:17px;font-weight:bold}.label{font-size:14px}"
-    ".tick,.legend{font-size:13px}.grid{stroke:#ddd;stroke-width:1}.frame{fill:none;stroke:#666;stroke-width:1}"
-    ".curve{fill:none;stroke-width:1.6;stroke-linejoin:round}.contour{fill:none;stroke:#fff;stroke-width:1.2}";
 
 std::vector<double> linear_ticks(double low, double high, int wanted) {
   const double raw = (high - low) / wanted;
@@ -413,17 +390,17 @@ std::string escaped(const std::string& text) {
   return out;
 }
 
+std::string axis_text(const Axis& axis) {
+  return escaped(axis.unit.empty() ? axis.label : fmt::format("{} [{}]", axis.label, with_superscripts(axis.unit)));
+}
+
 std::string svg(const Figure& figure) {
   const double legend = legend_width(figure);
   const double width = figure.width - left_margin - right_margin - legend;
   double height = title_height;
   for (const Panel& panel : figure.panels) height += panel_height(figure, panel) + panel_gap;
   Buffer out;
-  put(out, "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1:.0f}\" viewBox=\"0 0 {0} {1:.0f}\">\n",
-      figure.width, height);
-  put(out, "<style>{}</style>\n<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n", style_sheet);
-  put(out, "<text class=\"title\" x=\"{:.1f}\" y=\"26\" text-anchor=\"middle\">{}</text>\n", left_margin + width / 2,
-      escaped(figure.title));
+  begin_page(out, figure.width, height, left_margin + width / 2, figure.title);
   double top = title_height;
   for (std::size_t i = 0; i < figure.panels.size(); ++i) {
     const double whole = panel_height(figure, figure.panels[i]);

@@ -50,6 +50,7 @@ dl::Description chain(const Scene& scene, const scene::Line& l, std::shared_ptr<
     if (l.end(first).at) {
       d.held.push_back(held(l, first));
       node.mass = 0;
+      node.bob = {};
     }
     if (l.end(first).meets) node = {};
   }
@@ -61,7 +62,7 @@ dl::Description chain(const Scene& scene, const scene::Line& l, std::shared_ptr<
       node.loads.push_back(load);
   }
   if (l.bed) d.bed.push_back(*l.bed);
-  if (l.water.wet != dl::Wet::nothing) d.water.field = std::move(field);
+  if (l.meets_water()) d.water.field = std::move(field);
   return d;
 }
 
@@ -158,8 +159,8 @@ System description(const Scene& scene, const std::vector<std::size_t>& network,
   for (std::size_t k = 0; k < meet.knots.size(); ++k) {
     dl::Node& node = out.d.nodes[static_cast<std::size_t>(meet.knots[k].node)];
     node.mass += meet.junctions[k]->mass;
-    node.sphere = meet.junctions[k]->sphere;
-    if (node.sphere.diameter > 0) out.d.water.field = field;
+    node.bob = meet.junctions[k]->bob;
+    if (node.bob.diameter > 0) out.d.water.field = field;
   }
   out.knots = std::move(meet.knots);
   return out;
@@ -480,8 +481,7 @@ std::optional<hydro::waves::FieldUse> water_of_lines(const Scene& scene, const P
   std::size_t fastened = 0;
   for (const auto& network : scene.networks) {
     const auto* known = on_bodies(scene, network) ? &prepared.fastened_at_rest[fastened++] : nullptr;
-    if (std::none_of(network.begin(), network.end(),
-                     [&](std::size_t i) { return scene.lines[i].water.wet != dl::Wet::nothing; }))
+    if (std::none_of(network.begin(), network.end(), [&](std::size_t i) { return scene.lines[i].meets_water(); }))
       continue;
     try {
       const dl::Places rest = known != nullptr ? *known : at_rest(scene, network).position;

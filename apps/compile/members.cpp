@@ -60,6 +60,12 @@ dynamics::SlenderMember slender(const Scene& scene, const scene::Member& m, cons
   return {m.body, m.from - centre, m.to - centre, m.diameter, pieces_of(scene, m, asked), asked.immersion};
 }
 
+/// What a member tells of its loads: nothing unless the scene asks.
+std::optional<dynamics::ToldLoad> loads_told(const Scene& scene, const scene::Member& m) {
+  if (!m.loads) return {};
+  return dynamics::ToldLoad{m.name, scene.bodies[static_cast<std::size_t>(m.body)].centre_of_gravity};
+}
+
 dynamics::MorisonMember morison(const Scene& scene, const scene::Member& m) {
   dynamics::MorisonMember out = *m.morison;
   const double height = scene.bodies[static_cast<std::size_t>(m.body)].position.z();
@@ -68,12 +74,14 @@ dynamics::MorisonMember morison(const Scene& scene, const scene::Member& m) {
         fmt::format("member \"{}\" reaches above still water, but would be loaded as if all of it were wet", m.name),
         m.place, "add partial_immersion = true to its morison, or end the member at still water");
   out.line = slender(scene, m, out.line);
+  out.told = loads_told(scene, m);
   return out;
 }
 
 dynamics::SlammingMember slamming(const Scene& scene, const scene::Member& m) {
   dynamics::SlammingMember out = *m.slamming;
   out.line = slender(scene, m, out.line);
+  out.told = loads_told(scene, m);
   return out;
 }
 

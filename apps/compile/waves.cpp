@@ -13,6 +13,7 @@
 #include "hydro/waves/kinematics/limits.hpp"
 #include "hydro/waves/kinematics/steady.hpp"
 #include "hydro/waves/kinematics/tank.hpp"
+#include "hydro/waves/kinematics/trains.hpp"
 #include "hydro/waves/synthesis/second_order.hpp"
 #include "hydro/waves/synthesis/summed_field.hpp"
 #include "scene/placed.hpp"
@@ -157,13 +158,18 @@ void require_no_current(const scene::Scene& scene, const char* what) {
                      "take [current] out, or use another kind of waves");
 }
 
+/// Until when a scene asks for its waves, s; 0: it does not.
+double asked_until(const scene::Scene& scene) {
+  const double series = scene.ask_waves ? scene.ask_waves->from + scene.ask_waves->duration : 0;
+  return std::max(series, scene.run ? scene.run->duration : 0);
+}
+
 /// What the paddle's record makes of the tank: followed until the last sample asked, with enough rest after the record
 /// that no wave of its repetition has arrived by then.
 std::unique_ptr<const hw::WaveField> tank_field(const scene::Scene& scene, const scene::WaveTank& t) {
   require_no_current(scene, "waves of a tank");
   const hw::Band band{t.lowest, t.highest};
-  const double series = scene.ask_waves ? scene.ask_waves->from + scene.ask_waves->duration : 0;
-  const double until = std::max(series, scene.run ? scene.run->duration : 0);
+  const double until = asked_until(scene);
   const double fastest = std::sqrt(scene.water.gravity * scene.water.depth.metres());
   const bool come_back = t.reflection > 0 && !t.active_absorption;
   const int trips = come_back ? static_cast<int>(std::ceil(until * fastest / (2 * t.length))) : 0;
@@ -183,13 +189,83 @@ std::unique_ptr<const hw::WaveField> tank_field(const scene::Scene& scene, const
   });
 }
 
+// ---- trains that take turns ----
+
+/// How far anything in the scene is from a place, m, with room for hulls and lines about where they are placed.
+double farthest_from(const scene::Scene& scene, const Eigen::Vector3d& at) {
+  constexpr double room = 100;
+  double out = 0;
+  const auto look = [&](const Eigen::Vector3d& place) { out = std::max(out, (place - at).head<2>().norm()); };
+  for (const auto& body : scene.bodies) look(body.position);
+  for (const auto& probe : scene.probes) look(probe.at);
+  for (const auto& line : scene.lines)
+    for (const auto* end : {&line.from, &line.to})
+      if (end->at && !end->body) look(*end->at);
+  return out + room;
+}
+
+/// The trains as they are at their place; the first comes before anything of it is seen.
+std::vector<hw::WaveTrain> given_trains(const scene::Scene& scene, const scene::WaveTrains& trains, double delay) {
+  std::vector<hw::WaveTrain> out;
+  double longest = 0;
+  for (const auto& train : trains.trains) longest = std::max(longest, train.fade);
+  for (const auto& train : trains.trains) {
+    const bool first = out.empty();
+    out.push_back({hydro::WaveAmplitude::from_metres(train.wave.amplitude),
+                   hydro::AngularFrequency::from_period_s(train.wave.period), train.wave.phase,
+                   train.heading.value_or(scene.waves->heading), first ? -delay - longest : train.from,
+                   first ? longest : train.fade});
+  }
+  return out;
+}
+
+/// (W102). Around the run there is as much time as the slowest component needs to the farthest place.
+hw::Sea trains_sea(const scene::Scene& scene, const scene::WaveTrains& trains, const std::optional<Band>& data) {
+  require_no_current(scene, "trains of waves");
+  const auto& last = trains.trains.back();
+  const double asked = asked_until(scene), until = asked > 0 ? asked : last.from + last.fade + 20 * last.wave.period;
+  double highest = 0, shortest = infinity;
+  for (const auto& train : trains.trains) {
+    const Angle heading = train.heading.value_or(scene.waves->heading);
+    check_breaking(2 * train.wave.amplitude, two_pi / train.wave.period, scene, heading, "a wave height");
+    if (train.from + train.fade > until)
+      throw InputError(fmt::format("the train is whole at {:.6g} s, after the end of what is asked for at {:.6g} s",
+                                   train.from + train.fade, until),
+                       train.place, "ask for a longer run, or leave the train out");
+    highest = std::max(highest, two_pi / train.wave.period);
+    if (train.fade > 0) shortest = std::min(shortest, train.fade);
+  }
+  const double share = 0.1 * scene.accuracy;  // so small that it needs no estimate of its own
+  const double delay =
+      farthest_from(scene, trains.at) / hw::group_velocity(highest + hw::half_band(shortest, share), scene.water);
+  const auto given = given_trains(scene, trains, delay);
+  hw::TrainCut cut{given.front().from_s, until + delay + given.front().fade_s, share};
+  if (data) cut.lowest = data->low, cut.highest = data->high;
+  hw::TrainComponents found = hw::components_of(given, cut);
+  if (data && found.left_out > scene.accuracy)
+    throw InputError(
+        fmt::format(
+            "a train is off by up to {:.2g} % of its amplitude while it comes or goes, without what lies outside "
+            "the frequencies of the data, {:.4g} to {:.4g} rad/s; the accuracy asked is {:.2g} %",
+            100 * found.left_out, data->low, data->high, 100 * scene.accuracy),
+        scene.waves->place,
+        "let trains fade over a longer time, compute the coefficients for a wider band, or ask for less accuracy");
+  for (hw::GivenWave& wave : found.waves) {
+    const double ahead =
+        trains.at.x() * std::cos(wave.heading.radians()) + trains.at.y() * std::sin(wave.heading.radians());
+    wave.phase += hw::wavenumber(wave.omega.rad_per_s(), scene.water) * ahead;
+  }
+  return hw::Sea::of(found.waves, scene.water);
+}
+
 }  // namespace
 
 bool is_linear_sum(const scene::Waves& waves) {
   if (const auto* regular = std::get_if<scene::RegularWave>(&waves.kind))
     return regular->theory == scene::RegularTheory::linear;
-  const bool sum =
-      std::holds_alternative<scene::RandomSea>(waves.kind) || std::holds_alternative<scene::WaveList>(waves.kind);
+  const bool sum = std::holds_alternative<scene::RandomSea>(waves.kind) ||
+                   std::holds_alternative<scene::WaveList>(waves.kind) ||
+                   std::holds_alternative<scene::WaveTrains>(waves.kind);
   return sum && !has_bound_waves(waves);
 }
 
@@ -203,6 +279,10 @@ double highest_relevant_frequency(const scene::Waves& waves) {
     return highest;
   }
   if (const auto* tank = std::get_if<scene::WaveTank>(&waves.kind)) return tank->highest;
+  if (const auto* trains = std::get_if<scene::WaveTrains>(&waves.kind)) {
+    for (const auto& train : trains->trains) highest = std::max(highest, two_pi / train.wave.period);
+    return highest;
+  }
   std::vector<std::pair<double, double>> energy;  // falling frequency
   const auto note = [&](const auto& w) {
     energy.emplace_back(w.omega.rad_per_s(), w.amplitude.metres() * w.amplitude.metres());
@@ -234,6 +314,7 @@ hw::Sea free_waves(const scene::Scene& scene, const std::optional<Band>& data) {
   return scene::placed(waves.place, [&] {
     if (const auto* list = std::get_if<scene::WaveList>(&waves.kind))
       return hw::Sea::of(list->waves, scene.water, scene.current);
+    if (const auto* trains = std::get_if<scene::WaveTrains>(&waves.kind)) return trains_sea(scene, *trains, data);
     const auto& regular = std::get<scene::RegularWave>(waves.kind);
     check_breaking(2 * regular.amplitude, two_pi / regular.period, scene, waves.heading, "a wave height");
     return hw::Sea::regular(hydro::WaveAmplitude::from_metres(regular.amplitude),
@@ -269,13 +350,17 @@ double limiting_steepness(double tp) { return 1.0 / 15 + (1.0 / 25 - 1.0 / 15) *
 
 std::vector<std::string> wave_warnings(const scene::Scene& scene) {
   const scene::Waves& waves = *scene.waves;
-  if (const auto* regular = std::get_if<scene::RegularWave>(&waves.kind)) {
-    return hw::wave_limits({.height_m = 2 * regular->amplitude,
-                            .length = hw::Wavelength::from_metres(wavelength_of(scene, *regular)),
-                            .water = scene.water})
-        .warnings;
-  }
   std::vector<std::string> out;
+  const auto note_limits = [&](const scene::RegularWave& wave) {
+    for (std::string& one : hw::wave_limits({.height_m = 2 * wave.amplitude,
+                            .length = hw::Wavelength::from_metres(wavelength_of(scene, wave)),
+                            .water = scene.water})
+                                .warnings)
+      out.push_back(std::move(one));
+  };
+  if (const auto* regular = std::get_if<scene::RegularWave>(&waves.kind)) note_limits(*regular);
+  if (const auto* trains = std::get_if<scene::WaveTrains>(&waves.kind))
+    for (const auto& train : trains->trains) note_limits(train.wave);
   constexpr double much = 0.01;  // of the variance: 0.5 % of the height, which gauges tell no better
   if (const auto* list = std::get_if<scene::WaveList>(&waves.kind);
       list != nullptr && list->recorded && list->recorded->left_out > much)

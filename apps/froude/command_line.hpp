@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -22,6 +23,18 @@ struct Request {
 
 /// A quantity of an option in SI; none where the option is left out. \throws hydro::InputError naming the option
 std::optional<double> parsed(const std::string& option, const std::string& text, const hydro::Dimension& needed);
+
+/// The command answers by that function, once everything is read.
+template <class Arguments>
+void calls(CLI::App& command, Request& request, const std::shared_ptr<Arguments>& arguments,
+           void (*function)(const Arguments&, const Console&)) {
+  command.callback([=, &request] {
+    request.call = [=](const Console& console) {
+      function(*arguments, console);
+      return done;
+    };
+  });
+}
 
 /// Adds --version, --json and --quiet.
 void add_common_flags(CLI::App& app, Request& request);

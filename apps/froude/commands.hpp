@@ -107,6 +107,7 @@ struct StepArguments {
   std::optional<std::string> longest_gap = {};     ///< rows missing no longer are bridged, e.g. "0.5 s"
   std::optional<std::string> outliers = {};        ///< window about a sample that is asked, e.g. "1 s"
   std::optional<double> outlier_deviations = {};   ///< how far off an outlier is; 8 unless given
+  bool through_levels = false;                     ///< coarse channels become the curve through their levels
   std::optional<std::string> resample = {};        ///< another sampling rate, e.g. "20 Hz"
   bool detrend = false;                            ///< the straight line of least squares is taken off
   std::vector<std::string> notch = {};             ///< centre and width, e.g. "50 Hz, 2 Hz"
@@ -135,6 +136,19 @@ struct PsdArguments {
 };
 void psd(const PsdArguments& arguments, const Console& console);
 
+struct PrepareArguments {
+  Path file;                              ///< CSV, or a result of `froude run`
+  std::vector<std::string> signals = {};  ///< empty: all, `*` allowed
+  StepArguments steps = {};
+  std::vector<std::string> rates = {};        ///< signals whose rate is added, `*` allowed
+  std::optional<std::string> bandwidth = {};  ///< of the rates, e.g. "5 Hz"; five times the main frequency unless given
+  std::optional<std::string> from = {}, to = {};  ///< leave out what comes before, or after, e.g. "60 s"
+  Path output;                                    ///< .csv
+  std::optional<Path> picture = {};               ///< .svg, .png or .pdf
+};
+/// A record after the steps of [prepare], with rates of its signals.
+void prepare(const PrepareArguments& arguments, const Console& console);
+
 struct PoincareArguments {
   Path file;                              ///< CSV, or a result of `froude run`
   std::string x, y;                       ///< signals of the plane
@@ -149,6 +163,17 @@ struct PoincareArguments {
 };
 /// A Poincaré section of a record, with the error of each point by interpolation.
 void poincare(const PoincareArguments& arguments, const Console& console);
+
+struct TrajectoryArguments {
+  Path file;                                              ///< CSV, or a result of `froude run`
+  std::vector<std::string> points = {};                   ///< of which there are signals .x, .y and .z
+  std::optional<std::string> x = {}, y = {}, z = {};      ///< instead, signals of one path
+  std::optional<std::string> from = {}, to = {};          ///< leave out what comes before, or after, e.g. "60 s"
+  std::string azimuth = "-60 deg", elevation = "20 deg";  ///< from where the paths are seen
+  Path picture;                                           ///< .svg, .png or .pdf
+};
+/// Paths in space by three signals each, drawn in perspective.
+void trajectory(const TrajectoryArguments& arguments, const Console& console);
 
 struct SnapshotArguments {
   Path file;                                 ///< a result of `froude run`

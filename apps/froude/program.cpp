@@ -10,6 +10,7 @@
 #include "froude/experiment_options.hpp"
 #include "froude/export_options.hpp"
 #include "froude/kept_fits.hpp"
+#include "froude/path_options.hpp"
 #include "froude/sweep_options.hpp"
 #include "froude/watched_hulls.hpp"
 #include "hydro/base/error.hpp"
@@ -31,18 +32,6 @@ void add_new(CLI::App& app, Request& request) {
   command->callback([=, &request] {
     request.call = [=](const Console& console) {
       new_scene(*kind, *output, *keys, console);
-      return done;
-    };
-  });
-}
-
-/// The command answers by that function, once everything is read.
-template <class Arguments>
-void calls(CLI::App& command, Request& request, const std::shared_ptr<Arguments>& arguments,
-           void (*function)(const Arguments&, const Console&)) {
-  command.callback([=, &request] {
-    request.call = [=](const Console& console) {
-      function(*arguments, console);
       return done;
     };
   });
@@ -243,6 +232,8 @@ void add_steps(CLI::App& command, StepArguments& steps) {
   add("--outliers", steps.outliers,
       "single samples far off their neighbours are bridged; window that is asked: \"1 s\"");
   add("--outlier-deviations", steps.outlier_deviations, "how far off, in deviations of the neighbours, 3 at least [8]");
+  command.add_flag("--levels", steps.through_levels, "coarse channels become the curve through their levels")
+      ->group(group);
   add("--resample", steps.resample, "another sampling rate, without delay: \"20 Hz\"");
   command.add_flag("--detrend", steps.detrend, "the slope of the straight line of least squares is taken off")
       ->group(group);
@@ -256,6 +247,25 @@ void add_steps(CLI::App& command, StepArguments& steps) {
   add("--low-pass-ripple", steps.low_pass_ripple, "share of the amplitude by which chebyshev wavers [0.005]");
   add("--band-pass", steps.band_pass, "without delay; frequencies of half the amplitude: \"0.05 Hz, 0.5 Hz\"");
   add("--wave-frequency", steps.wave_frequency, "instead: a band-pass from 0.2 to 4 times it: \"0.125 Hz\"");
+}
+
+void add_prepare(CLI::App& app, Request& request) {
+  auto* command = app.add_subcommand("prepare", "a record after the steps that a fit has, with rates of its signals");
+  command->footer(
+      "Example:\n  froude prepare swing.csv --levels --rate angle --bandwidth \"4 Hz\" -o prepared.csv --picture "
+      "prepared.svg");
+  auto arguments = std::make_shared<PrepareArguments>();
+  command->add_option("file", arguments->file, "CSV with units in its header, or a result of `froude run`")->required();
+  command->add_option("-s,--signal", arguments->signals, "signals to take; * stands for any text; default: all");
+  command->add_option("--from", arguments->from, "leave out what comes before: \"60 s\"");
+  command->add_option("--to", arguments->to, "leave out what comes after: \"360 s\"");
+  add_steps(*command, arguments->steps);
+  command->add_option("--rate", arguments->rates, "signals whose rate is added; * stands for any text");
+  command->add_option("--bandwidth", arguments->bandwidth,
+                      "to which rates are right within 1 %; left out: five times the main frequency");
+  command->add_option("-o,--output", arguments->output, "table (.csv)")->required();
+  command->add_option("--picture", arguments->picture, "plot (.svg, .png, .pdf)");
+  calls(*command, request, arguments, prepare);
 }
 
 void add_psd(CLI::App& app, Request& request) {
@@ -277,49 +287,6 @@ void add_psd(CLI::App& app, Request& request) {
   command->add_option("-o,--output", arguments->output, "table (.csv) or result (.h5)");
   command->add_option("--picture", arguments->picture, "plot (.svg, .png, .pdf)");
   calls(*command, request, arguments, psd);
-}
-
-void add_poincare(CLI::App& app, Request& request) {
-  auto* command = app.add_subcommand(
-      "poincare", "Poincare section: where two signals are when a third crosses a level, or once in a period");
-  command->footer(
-      "Examples:\n  froude poincare run.h5 --x chain.link2.polar --y chain.link2.polar_rate --at chain.link1.polar "
-      "--level \"90 deg\" --picture poincare.svg\n"
-      "  froude poincare run.h5 --x chain.link2.polar --y chain.link2.polar_rate --every \"8 s\" --from \"200 s\"");
-  auto arguments = std::make_shared<PoincareArguments>();
-  command->add_option("file", arguments->file, "CSV with units in its header, or a result of `froude run`")->required();
-  command->add_option("--x", arguments->x, "signal along the Poincare section")->required();
-  command->add_option("--y", arguments->y, "the other one")->required();
-  command->add_option("--at", arguments->at, "signal that crosses the level");
-  command->add_option("--level", arguments->level, "which it crosses: \"90 deg\"");
-  command->add_option("--through", arguments->through, "in which direction")
-      ->check(CLI::IsMember({"up", "down", "both"}))
-      ->capture_default_str();
-  command->add_option("--every", arguments->every, "instead of --at: once in this period: \"8 s\"");
-  command->add_option("--from", arguments->from, "leave out what comes before; with --every the first point");
-  command->add_flag("--wrap", arguments->wrap, "angles between -180 and 180 deg, without their full turns");
-  command->add_option("-o,--output", arguments->output, "table (.csv)");
-  command->add_option("--picture", arguments->picture, "plot (.svg, .png, .pdf)");
-  calls(*command, request, arguments, poincare);
-}
-
-void add_snapshot(CLI::App& app, Request& request) {
-  auto* command = app.add_subcommand("snapshot", "where lines and members of bodies are at chosen instants of a run");
-  command->footer(
-      "Examples:\n  froude snapshot dropper.h5 --line dropper --at \"4 s\" --at \"6 s\" --picture line.svg\n"
-      "  froude snapshot dropper.h5 --line dropper --at \"4 s\" --plane xz --plane xy --picture both.png");
-  auto arguments = std::make_shared<SnapshotArguments>();
-  command->add_option("file", arguments->file, "result of `froude run`, with the places of all nodes")->required();
-  command->add_option("--line", arguments->lines, "the name of a line; as often as there are lines to show");
-  command->add_option("--body", arguments->bodies,
-                      "the name of a body, whose members are shown; \"m*\": all that are called so");
-  command->add_option("--at", arguments->at, "an instant: \"4 s\", of which the nearest sample is shown")->required();
-  command->add_option("--plane", arguments->planes, "what goes along the picture and up it; one picture below another")
-      ->check(CLI::IsMember({"xz", "yz", "xy", "yx", "zx", "zy"}))
-      ->capture_default_str();
-  command->add_option("-o,--output", arguments->output, "table (.csv)");
-  command->add_option("--picture", arguments->picture, "plot (.svg, .png, .pdf)");
-  calls(*command, request, arguments, snapshot);
 }
 
 void add_sn_curve(CLI::App& command, SnArguments& sn) {
@@ -530,7 +497,9 @@ void describe(CLI::App& app, Request& request) {
   add_waves(app, request);
   add_hydrostatics(app, request);
   add_psd(app, request);
+  add_prepare(app, request);
   add_poincare(app, request);
+  add_trajectory(app, request);
   add_snapshot(app, request);
   add_response(app, request);
   add_fatigue(app, request);

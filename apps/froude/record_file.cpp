@@ -7,6 +7,7 @@
 #include "hydro/base/error.hpp"
 #include "hydro/base/units.hpp"
 #include "hydro/io/csv.hpp"
+#include "scene/scene.hpp"
 
 namespace froude {
 namespace {
@@ -72,16 +73,38 @@ void drop_after(RunResult& record, double to, const Path& file) {
   for (Signal& s : record.signals) s.values.resize(static_cast<std::size_t>(end));
 }
 
+namespace {
+
+[[noreturn]] void refuse_unknown(const std::string& name, const std::vector<std::string>& known, const Path& file) {
+  const std::string near = hydro::nearest(name, known);
+  throw hydro::InputError(fmt::format("no signal is called \"{}\"", name), {.file = file.string()},
+                          near.empty() ? fmt::format("signals are: {}", fmt::join(known, ", "))
+                                       : fmt::format("did you mean \"{}\"?", near));
+}
+
+}  // namespace
+
+std::vector<Signal> signals_like(const RunResult& record, const std::vector<std::string>& patterns, const Path& file) {
+  std::vector<std::string> known;
+  for (const Signal& s : record.signals) known.push_back(s.name);
+  for (const std::string& pattern : patterns)
+    if (std::none_of(known.begin(), known.end(), [&](const auto& name) { return scene::matches(pattern, name); }))
+      refuse_unknown(pattern, known, file);
+  std::vector<Signal> out;
+  for (const Signal& s : record.signals)
+    if (std::any_of(patterns.begin(), patterns.end(),
+                    [&](const auto& pattern) { return scene::matches(pattern, s.name); }))
+      out.push_back(s);
+  return out;
+}
+
 const Signal& signal_of(const RunResult& record, const std::string& name, const Path& file) {
   std::vector<std::string> known;
   for (const Signal& s : record.signals) {
     if (s.name == name) return s;
     known.push_back(s.name);
   }
-  const std::string near = hydro::nearest(name, known);
-  throw hydro::InputError(fmt::format("no signal is called \"{}\"", name), {.file = file.string()},
-                          near.empty() ? fmt::format("signals are: {}", fmt::join(known, ", "))
-                                       : fmt::format("did you mean \"{}\"?", near));
+  refuse_unknown(name, known, file);
 }
 
 }  // namespace froude

@@ -9,6 +9,7 @@
 #include "fit/prepare_channels.hpp"
 #include "fit/sensor.hpp"
 #include "froude/option.hpp"
+#include "froude/record_file.hpp"
 #include "hydro/base/error.hpp"
 #include "scene/placed.hpp"
 
@@ -114,6 +115,7 @@ fit::PrepareOptions steps_of(const StepArguments& a) {
   if (a.longest_gap) out.longest_gap_s = positive_of("--longest-gap", *a.longest_gap, dim::time, "0.5 s");
   if (a.outliers) out.outlier_window_s = positive_of("--outliers", *a.outliers, dim::time, "1 s");
   out.outlier_deviations = deviations_of(a);
+  out.through_levels = a.through_levels;
   if (a.resample) out.resample_hz = hertz_of("--resample", *a.resample, "20 Hz");
   out.detrend = a.detrend;
   for (const std::string& text : a.notch) out.filters.push_back(notch_of(text));
@@ -180,10 +182,20 @@ void put_back(fit::PreparedChannels& prepared, RunResult& record) {
 }  // namespace
 }  // namespace record_steps
 
+RecordPart record_part(const std::optional<std::string>& from, const std::optional<std::string>& to) {
+  RecordPart part;
+  if (from) part.from = option_si("--from", *from, hydro::dim::time);
+  if (to) part.to = option_si("--to", *to, hydro::dim::time);
+  if (part.from && part.to && !(*part.to > *part.from))
+    throw hydro::InputError(fmt::format("--to {:.6g} s is not after --from {:.6g} s", *part.to, *part.from),
+                            {.file = "command line"}, "exchange the two, or leave one out");
+  return part;
+}
+
 bool names_a_step(const StepArguments& a) {
-  return a.longest_gap || a.outliers || a.outlier_deviations || a.resample || a.detrend || !a.notch.empty() ||
-         a.moving_average || a.low_pass || a.low_pass_kind || a.low_pass_order || a.low_pass_ripple || a.band_pass ||
-         a.wave_frequency;
+  return a.longest_gap || a.outliers || a.outlier_deviations || a.through_levels || a.resample || a.detrend ||
+         !a.notch.empty() || a.moving_average || a.low_pass || a.low_pass_kind || a.low_pass_order ||
+         a.low_pass_ripple || a.band_pass || a.wave_frequency;
 }
 
 std::optional<StepsDone> take_steps(RunResult& record, const StepArguments& arguments, const RecordPart& part,
@@ -212,6 +224,20 @@ std::optional<StepsDone> take_steps(RunResult& record, const StepArguments& argu
   for (const auto& c : prepared.channels) out.outliers.emplace_back(c.name, c.outliers);
   put_back(prepared, record);
   return out;
+}
+
+std::optional<StepsDone> take_steps_of_part(RunResult& record, const StepArguments& arguments, const RecordPart& part,
+                                            const Path& file) {
+  const auto cut = [&](RunResult& from_record) {
+    if (part.from) drop_before(from_record, *part.from, file);
+    if (part.to) drop_after(from_record, *part.to, file);
+  };
+  RunResult times;  // the part must lie in the record as it was given
+  times.time = record.time;
+  cut(times);
+  auto done = take_steps(record, arguments, part, file);
+  if (!done) cut(record);
+  return done;
 }
 
 Report report_of(const StepsDone& done) {

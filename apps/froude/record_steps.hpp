@@ -26,6 +26,9 @@ struct RecordPart {
   std::optional<double> from = {}, to = {};
 };
 
+/// By two options. \throws hydro::InputError at one that is no time, or for an end before the beginning
+RecordPart record_part(const std::optional<std::string>& from, const std::optional<std::string>& to);
+
 /// A command that takes the record as it is refuses them.
 bool names_a_step(const StepArguments& arguments);
 
@@ -35,6 +38,11 @@ bool names_a_step(const StepArguments& arguments);
 /// allow, a part beyond what the steps leave
 std::optional<StepsDone> take_steps(RunResult& record, const StepArguments& arguments, const RecordPart& part,
                                     const Path& file);
+
+/// The same, and where no step is named the part is cut. Filters see the whole record, so that the part need not lose
+/// its ends to them. \throws hydro::InputError as take_steps(), and for a part outside the record
+std::optional<StepsDone> take_steps_of_part(RunResult& record, const StepArguments& arguments, const RecordPart& part,
+                                            const Path& file);
 
 /// Under "prepared".
 Report report_of(const StepsDone& done);

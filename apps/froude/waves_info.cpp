@@ -324,6 +324,25 @@ Info of_packets(const scene::Scene& scene, const scene::FocusedPackets& packets)
   return info;
 }
 
+Info of_trains(const scene::Scene& scene, const scene::WaveTrains& trains) {
+  Info info{.what = fmt::format("{} trains of regular waves that take turns", trains.trains.size())};
+  const hw::Sea sea = compile::free_waves(scene);
+  add(info, "components", static_cast<double>(sea.components().size()), "", "into which they are cut");
+  for (std::size_t i = 0; i < trains.trains.size(); ++i) {
+    const auto& [wave, heading, from, fade, place] = trains.trains[i];
+    const std::string n = std::to_string(i + 1);
+    add(info, "height_" + n, 2 * wave.amplitude, "m", "of train " + n + ", from trough to crest");
+    add(info, "period_" + n, wave.period, "s", "of train " + n);
+    if (i > 0) add(info, "from_" + n, from, "s", fmt::format("when it begins to come, over {:.4g} s", fade));
+  }
+  const scene::RegularWave& steepest =
+      std::max_element(trains.trains.begin(), trains.trains.end(), [](const auto& a, const auto& b) {
+        return a.wave.amplitude / (a.wave.period * a.wave.period) < b.wave.amplitude / (b.wave.period * b.wave.period);
+      })->wave;
+  add_shape(info, 2 * steepest.amplitude, steepest.period, scene.water, in_still_water(steepest.period, scene.water));
+  return info;
+}
+
 Info of_scene(const Path& file) {
   const scene::Scene scene = scene::read(file);
   if (!scene.waves) throw hydro::InputError("the scene has no [waves]", {.file = file.string()}, "add a [waves] table");
@@ -331,6 +350,7 @@ Info of_scene(const Path& file) {
   if (const auto* regular = std::get_if<scene::RegularWave>(&kind)) return of_regular(scene, *regular);
   if (const auto* random = std::get_if<scene::RandomSea>(&kind)) return of_random(scene, *random);
   if (const auto* packets = std::get_if<scene::FocusedPackets>(&kind)) return of_packets(scene, *packets);
+  if (const auto* trains = std::get_if<scene::WaveTrains>(&kind)) return of_trains(scene, *trains);
   if (std::holds_alternative<scene::WaveList>(kind)) {
     const hw::Sea sea = compile::free_waves(scene);
     return of_components(sea, fmt::format("{} regular waves from a list", sea.components().size()),

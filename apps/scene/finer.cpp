@@ -94,7 +94,9 @@ std::vector<dl::Segment> cut(const Line& line) {
   return out;
 }
 
-bool is_approximated(const Line& line) { return !line.parts.empty() && line.node.mass == 0; }
+bool is_approximated(const Line& line) {
+  return !line.parts.empty() && line.node.mass == 0 && line.node.bob.diameter == 0;
+}
 
 bool approximates_lines(const Scene& scene) {
   return std::any_of(scene.lines.begin(), scene.lines.end(), is_approximated);

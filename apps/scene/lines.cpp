@@ -309,7 +309,7 @@ void read_surroundings(const Record& record, Line& out) {
   if (partial && !wet)
     throw record.refused("is immersed in part, but nothing of the water acts on it",
                          "add morison or buoyancy = true, or leave partial_immersion out");
-  if (!wet && record.has("waves"))
+  if (!wet && record.has("waves") && !record.has("bob_cylinders"))
     throw record.table("waves").refused("is where a line takes waves, but nothing of the water acts on it",
                                         "add morison or buoyancy = true, or leave it out");
   if (!wet && !out.bed && record.has("diameter"))

@@ -86,6 +86,11 @@ const Binding<Member>& member() {
           .table("drag", member_drag())
           .table("morison", member_morison(), &Member::morison)
           .table("slamming", member_slamming(), &Member::slamming)
+          .key(effect("loads",
+                      "signals NAME.morison_force_x, NAME.slamming_force_x, … NAME.slamming_moment_z: the load "
+                      "of each of the two on the body, about its origin, along global axes")
+                   .only_beside_one_of({"morison", "slamming"}),
+               &Member::loads)
           .at_most_one_of({"drag", "morison"})
           .at_least_one_of({"drag", "morison", "slamming"});
   return binding;

@@ -17,12 +17,11 @@ namespace dl = dynamics::line;
 
 Binding<Junction> junction_morison() {
   return Binding<Junction>("[junction.morison]", "drag, Froude-Krylov load and added mass of the sphere")
-      .key(number("cd", "drag coefficient, of its section").within(Limit::not_negative), &Junction::sphere,
-           &dl::Sphere::cd)
+      .key(number("cd", "drag coefficient, of its section").within(Limit::not_negative), &Junction::bob, &dl::Bob::cd)
       .key(number("ca", "added mass over displaced mass")
                .within(Limit::not_negative)
                .or_default("0.5", "of a sphere in unbounded water"),
-           &Junction::sphere, &dl::Sphere::ca);
+           &Junction::bob, &dl::Bob::ca);
 }
 
 const Binding<Junction>& junction() {
@@ -34,16 +33,16 @@ const Binding<Junction>& junction() {
           .key(name_key("junction", "of the junction"))
           .key(quantity("mass", dim::mass, "of what is there besides the lines").positive().optional(), &Junction::mass)
           .key(quantity("diameter", dim::length, "of a sphere that the water meets").positive().optional(),
-               &Junction::sphere, &dl::Sphere::diameter)
+               &Junction::bob, &dl::Bob::diameter)
           .table("morison", junction_morison())
           .only_beside({"diameter"})
           .key(effect("buoyancy", "weight of the water that the sphere displaces").only_beside("diameter"),
-               &Junction::sphere, &dl::Sphere::buoyancy)
+               &Junction::bob, &dl::Bob::buoyancy)
           .key(effect("partial_immersion", "only what is under the waves is wet; left out: all of it, always")
                    .only_beside("diameter"))
           .then([](const Record& record, Junction& out) {
-            if (record.has("partial_immersion")) out.sphere.wet = dl::Wet::below_surface;
-            if (record.has("diameter") && !out.sphere.buoyancy && !record.has("morison"))
+            if (record.has("partial_immersion")) out.bob.wet = dl::Wet::below_surface;
+            if (record.has("diameter") && !out.bob.buoyancy && !record.has("morison"))
               throw record.wrong("diameter", "acts on nothing here", "leave it out, or add buoyancy or morison");
           });
   return binding;
@@ -118,7 +117,7 @@ void require_meetings(const Scene& scene) {
       throw hydro::InputError(
           fmt::format("no line is on the junction \"{}\"", junction.name), junction.place,
           fmt::format("write on = {{ to = \"{}\" }} in a [[line]], or leave it out", junction.name));
-    if (ends == 1 && junction.mass == 0 && junction.sphere.diameter == 0)
+    if (ends == 1 && junction.mass == 0 && junction.bob.diameter == 0)
       throw hydro::InputError(
           fmt::format("one line alone is on the junction \"{}\", at which nothing is", junction.name), junction.place,
           "let another line be on it too, or give it mass or diameter, or let the end be free");

@@ -97,6 +97,18 @@ struct WaveList {
   std::optional<Recorded> recorded = {};
 };
 
+/// Regular waves that take turns.
+struct WaveTrains {
+  struct Train {
+    RegularWave wave;  ///< of linear theory
+    std::optional<hydro::Angle> heading;
+    double from = 0, fade = 0;  ///< s, as hydro::waves::WaveTrain; of the first 0
+    Place place;
+  };
+  std::vector<Train> trains;
+  Eigen::Vector3d at;  ///< where they come at those instants, m
+};
+
 struct FocusedPackets {
   std::vector<hydro::waves::Packet> packets;
   hydro::waves::Focus focus;
@@ -113,7 +125,7 @@ struct WaveTank {
 };
 
 struct Waves {
-  std::variant<RegularWave, RandomSea, WaveList, FocusedPackets, WaveTank> kind;
+  std::variant<RegularWave, RandomSea, WaveList, WaveTrains, FocusedPackets, WaveTank> kind;
   hydro::Angle heading = hydro::Angle::from_radians(0);
   double ramp = 0;  ///< s; wave loads grow by a half cosine over this time
   hydro::waves::Stretching stretching = hydro::waves::Stretching::vertical;
@@ -269,6 +281,7 @@ struct Member {
   /// What they say but for the place and diameter of their `line`; no `pieces`: as many as the accuracy asked needs.
   std::optional<dynamics::MorisonMember> morison;
   std::optional<dynamics::SlammingMember> slamming;
+  bool loads = false;  ///< told as signals
   Place place;
 };
 
@@ -291,7 +304,7 @@ struct CatenaryLine {
 struct Junction {
   std::string name;
   double mass = 0;  ///< kg
-  dynamics::line::Sphere sphere;
+  dynamics::line::Bob bob;
   Place place;
 };
 
@@ -366,7 +379,7 @@ struct Line {
   std::vector<EvenPart> parts;                    ///< empty: its links are listed one by one
   std::optional<Growth> growth;                   ///< on parts
   std::vector<dynamics::line::Segment> segments;  ///< each with all it has, marine growth too: cut() of its parts
-  dynamics::line::Node node;                      ///< each; at held ends without mass
+  dynamics::line::Node node;                      ///< each; at held ends without mass and bob
   dynamics::line::Surroundings water;             ///< without the field of a run
   std::optional<Coefficients> coefficients;       ///< instead of those of the segments
   std::optional<dynamics::line::Bed> bed;
@@ -382,6 +395,7 @@ struct Line {
   const End& end(bool first) const { return first ? from : to; }
   int last_node() const { return static_cast<int>(segments.size()); }
   bool fastened() const { return from.body || to.body; }
+  bool meets_water() const { return water.wet != dynamics::line::Wet::nothing || node.bob.diameter > 0; }
 };
 
 /// `[connector.switch]`: the stiffness by the period that dominates a signal.

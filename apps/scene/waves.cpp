@@ -154,12 +154,18 @@ Binding<RandomSea> random_sea(Table own) {
 
 // Other seas
 
-Binding<RegularWave> regular() {
-  return Binding<RegularWave>("", "one wave after the other")
+Binding<RegularWave> height_and_period() {
+  return Binding<RegularWave>("", "")
       .optional(positive("height", dim::length, "from trough to crest"),
                 [](const Value& v, RegularWave& wave) { wave.amplitude = v.number / 2; })
       .optional(positive("amplitude", dim::length, "half the height"), &RegularWave::amplitude)
       .key(positive("period", dim::time, "of the wave"), &RegularWave::period)
+      .exactly_one_of({"height", "amplitude"});
+}
+
+Binding<RegularWave> regular() {
+  return Binding<RegularWave>("", "one wave after the other")
+      .part(height_and_period())
       .words(text("theory",
                   "\"linear\", \"stokes2\", \"stokes5\" or \"stream\" (stream function); a run takes linear waves")
                  .or_default("linear", "what potential-flow coefficients belong to"),
@@ -172,12 +178,60 @@ Binding<RegularWave> regular() {
                          "of a linear wave, added to omega t - k x: the surface at the origin is amplitude times the "
                          "cosine of it at t = 0; left out: 0, a crest"),
                 &RegularWave::phase)
-      .exactly_one_of({"height", "amplitude"})
       .then([](const Record& waves, RegularWave& wave) {
         if (wave.theory != RegularTheory::linear && waves.has("phase"))
           throw waves.wrong("phase", "belongs to linear waves",
                             "leave it out: a crest of this theory is at the origin at t = 0");
       });
+}
+
+Binding<WaveTrains::Train> train() {
+  using Train = WaveTrains::Train;
+  return Binding<Train>("[[waves.train]]", "a train of regular waves, in the order in which they come")
+      .part(height_and_period(), &Train::wave)
+      .optional(quantity("phase", dim::angle, "added to omega t; left out: 0, a crest at t = 0 where trains are given"),
+                [](const Value& v, Train& out) { out.wave.phase = v.number; })
+      .optional(quantity("heading", dim::angle, "where this train goes; left out: where [waves] goes"),
+                [](const Value& v, Train& out) { out.heading = Angle::from_radians(v.number); })
+      .optional(positive("from", dim::time, "when it begins to come; left out: the first, which has always been there"),
+                &Train::from)
+      .optional(positive("fade", dim::time,
+                         "over which it comes and the one before goes, each by half a cosine; one is the rest of the "
+                         "other"),
+                &Train::fade)
+      .place(&Train::place);
+}
+
+/// Each comes when the one before it is there.
+void check_trains(const Record& waves, const WaveTrains& out) {
+  if (out.at.z() != 0) throw waves.wrong("at", "lies above or below still water", "write (x, y, 0)");
+  const std::vector<Record>& records = waves.tables("train");
+  if (records.size() < 2)
+    throw waves.refused("has fewer than two trains", "add [[waves.train]], or take kind = \"regular\"");
+  for (std::size_t i = 0; i < records.size(); ++i)
+    for (const char* key : {"from", "fade"}) {
+      if (i == 0 && records[i].has(key))
+        throw records[i].wrong(key, "belongs to trains after the first, which has always been there", "leave it out");
+      if (i > 0 && !records[i].has(key))
+        throw records[i].refused(fmt::format("needs the key \"{}\": it comes after another", key));
+    }
+  for (std::size_t i = 1; i < records.size(); ++i) {
+    const WaveTrains::Train& before = out.trains[i - 1];
+    if (out.trains[i].from < before.from + before.fade)
+      throw records[i].wrong(
+          "from", fmt::format("is before the train before it is whole, at {:.6g} s", before.from + before.fade),
+          "let it come later, or shorten that fade");
+  }
+}
+
+Binding<WaveTrains> trains_in_turn() {
+  return Binding<WaveTrains>("", "regular waves that take turns: each train fades into the next")
+      .key(vector("at", dim::length,
+                  "where trains come at their instants, as (x, y, 0); from there a change goes on as waves do")
+               .or_default("(0, 0, 0) m", "the origin, where phases of waves are told"),
+           &WaveTrains::at)
+      .tables("train", train(), &WaveTrains::trains)
+      .then(check_trains);
 }
 
 /// A column `name` with a unit in the header, or a column "name_s" whose name ends in one of `units`; SI. Empty if
@@ -404,6 +458,7 @@ Binding<Waves> all_waves() {
           .variant("regular", regular(), &Waves::kind)
           .variant("components", listed(), &Waves::kind)
           .variant("record", recorded(), &Waves::kind)
+          .variant("trains", trains_in_turn(), &Waves::kind)
           .variant("focused_packets", focused_packets(), &Waves::kind)
           .variant("tank", tank(), &Waves::kind);
   for (const auto& [keys, build] : spectra()) {

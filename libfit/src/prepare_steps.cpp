@@ -4,6 +4,7 @@
 #include <cmath>
 #include <span>
 
+#include "fit/levels.hpp"
 #include "fit/resample.hpp"
 #include "fit/sensor.hpp"
 #include "hydro/base/error.hpp"
@@ -64,6 +65,21 @@ std::vector<std::size_t> take_outliers(RecordColumns& r, int half_window, double
   return counts;
 }
 
+void take_levels(RecordColumns& r) {  // (F111)
+  for (const auto& [name, column] : r.columns) {
+    auto curve = through_levels(*column);
+    if (!curve) {
+      r.log.tell("levels: {} knows more than a thousand, or none, and stays as it is", name);
+      continue;
+    }
+    *column = std::move(curve->values);
+    r.log.tell(
+        "levels: {} goes on a spline through {} places known by {} flat parts, {:.3g} apart; a sample was moved "
+        "by {:.2g} of that at most",
+        name, curve->knots, curve->flat_parts, curve->step, curve->largest_change);
+  }
+}
+
 }  // namespace
 
 Replaced evened_and_cleaned(RecordColumns& record, const PrepareOptions& options, const std::vector<double>* rests) {
@@ -72,6 +88,7 @@ Replaced evened_and_cleaned(RecordColumns& record, const PrepareOptions& options
   out.filled = fill_gaps(record, options.longest_gap_s);
   look_at_sensors(record, rests);
   out.outliers = take_outliers(record, half_window, options.outlier_deviations);
+  if (options.through_levels) take_levels(record);
   return out;
 }
 

@@ -114,7 +114,7 @@ class Success(CommandLine):
             json.loads(result.stdout)
 
     def test_help_shows_an_example_of_every_command(self):
-        for command in (["new"], ["bem", "info"], ["bem", "convert"], ["bem", "check"], ["rao"], ["modes"], ["run"], ["psd"], ["poincare"], ["snapshot"], ["response"], ["fatigue"], ["extremes"], ["fit"], ["plan"], ["cost"]):
+        for command in (["new"], ["bem", "info"], ["bem", "convert"], ["bem", "check"], ["rao"], ["modes"], ["run"], ["psd"], ["prepare"], ["poincare"], ["trajectory"], ["snapshot"], ["response"], ["fatigue"], ["extremes"], ["fit"], ["plan"], ["cost"]):
             result = self.froude(*command, "-h")
             self.assertEqual(result.returncode, 0)
             self.assertIn("froude " + " ".join(command) + " ", result.stdout.split("Example")[1])

@@ -21,24 +21,10 @@ using spectra::Analysis;
 using spectra::Estimate;
 
 std::vector<Signal> chosen(const RunResult& record, const PsdArguments& arguments) {
-  std::vector<std::string> known, patterns = arguments.signals;
-  for (const Signal& s : record.signals) known.push_back(s.name);
+  std::vector<std::string> patterns = arguments.signals;
   if (patterns.empty()) patterns.push_back("*");
   if (arguments.input) patterns.push_back(*arguments.input);
-  for (const std::string& pattern : patterns) {
-    if (std::any_of(known.begin(), known.end(), [&](const auto& name) { return scene::matches(pattern, name); }))
-      continue;
-    const std::string near = hydro::nearest(pattern, known);
-    throw hydro::InputError(fmt::format("no signal is called \"{}\"", pattern), {.file = arguments.file.string()},
-                            near.empty() ? fmt::format("signals are: {}", fmt::join(known, ", "))
-                                         : fmt::format("did you mean \"{}\"?", near));
-  }
-  std::vector<Signal> out;
-  for (const Signal& s : record.signals)
-    if (std::any_of(patterns.begin(), patterns.end(),
-                    [&](const auto& pattern) { return scene::matches(pattern, s.name); }))
-      out.push_back(s);
-  return out;
+  return signals_like(record, patterns, arguments.file);
 }
 
 // ---- computing ----
@@ -97,37 +83,6 @@ Estimate estimate(const Signal& signal, const RunResult& record, const Analysis&
   return e;
 }
 
-/// A time of the command line, s.
-std::optional<double> time_of(const char* option, const std::optional<std::string>& text) {
-  if (!text) return std::nullopt;
-  return scene::placed({.file = option}, [&] { return hydro::parse_si(*text, hydro::dim::time); });
-}
-
-RecordPart part_of(const PsdArguments& arguments) {
-  const RecordPart part{time_of("--from", arguments.from), time_of("--to", arguments.to)};
-  if (part.from && part.to && !(*part.to > *part.from))
-    throw hydro::InputError(fmt::format("--to {:.6g} s is not after --from {:.6g} s", *part.to, *part.from),
-                            {.file = "command line"}, "exchange the two, or leave one out");
-  return part;
-}
-
-/// Leaves the part of the record from --from to --to, both included.
-void cut_out(RunResult& record, const RecordPart& part, const Path& file) {
-  if (part.from) drop_before(record, *part.from, file);
-  if (part.to) drop_after(record, *part.to, file);
-}
-
-/// The steps asked for, and the part. Filters see the whole record, so that the part need not lose its ends to them.
-std::optional<StepsDone> prepared(RunResult& record, const PsdArguments& arguments) {
-  const RecordPart part = part_of(arguments);
-  RunResult times;  // the part must lie in the record as it was given
-  times.time = record.time;
-  cut_out(times, part, arguments.file);
-  const auto done = take_steps(record, arguments.steps, part, arguments.file);
-  if (!done) cut_out(record, part, arguments.file);
-  return done;
-}
-
 /// Transfer functions are made of segments, not of tapers.
 void require_one_way(const PsdArguments& arguments) {
   if (arguments.tapers && (arguments.segment || arguments.input))
@@ -153,7 +108,7 @@ spectra::Analysis spectra::analyse(RunResult record, const PsdArguments& argumen
   require_one_way(arguments);
   record.signals = chosen(record, arguments);
   hydro::require(!record.time.empty(), "the record has no samples");
-  auto steps = prepared(record, arguments);
+  auto steps = take_steps_of_part(record, arguments.steps, record_part(arguments.from, arguments.to), arguments.file);
   Analysis a{.samples = record.time.size(),
              .step = 0,
              .options = {},

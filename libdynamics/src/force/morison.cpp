@@ -174,6 +174,12 @@ class Flows {
     if (foreseen_ != nullptr) foreseen_->look(state_);
   }
 
+  /// Leaves a member out.
+  void skip() {
+    if (foreseen_ != nullptr && members_[member_].line.immersion == Immersion::whole) ++foreseen_members_;
+    ++member_;
+  }
+
   /// Of the member after the last one, with gradients where they are asked for. It stands until the next.
   MemberFlow& next(bool derivatives) {
     const MorisonMember& m = members_[member_++];
@@ -198,6 +204,18 @@ class Flows {
   ForeseenFlow* foreseen_;
   std::size_t member_ = 0, foreseen_members_ = 0;
 };
+
+/// About the centre of gravity, without the part of the added mass that is on the left.
+Vector6 load_of(const PerLength& c, const MemberFlow& flow) {
+  Vector6 load = Vector6::Zero();
+  for (std::size_t i = 0; i < flow.pieces.size(); ++i) {
+    const Flow f = flow_past(flow.at, flow.pieces[i].arm, flow.water[i]);
+    const Vector3d force = flow.pieces[i].length * (drag(c, f) + inertia(c, f));
+    load.head<3>() += force;
+    load.tail<3>() += f.arm.cross(force);
+  }
+  return load;
+}
 
 // ∫c VᵀPV over the wet parts, V = (1, −r×) the velocity of a point by that of the body, P = 1 − ttᵀ: sums of c, cr and
 // crrᵀ, and Vᵀt = (t, r×t), which is the same at all points of a line along t.
@@ -271,16 +289,29 @@ std::unique_ptr<Memory> MorisonKind::make_memory(const State&) const {
   Flows flows(members_, *water_, now);
   for (const MorisonMember& m : members_) {
     const PerLength c(m, water_->water().density);
-    const MemberFlow& flow = flows.next(false);
-    Vector6 load = Vector6::Zero();
-    for (std::size_t i = 0; i < flow.pieces.size(); ++i) {
-      const Flow f = flow_past(flow.at, flow.pieces[i].arm, flow.water[i]);
-      const Vector3d force = flow.pieces[i].length * (drag(c, f) + inertia(c, f));
-      load.head<3>() += force;
-      load.tail<3>() += f.arm.cross(force);
-    }
-    out.add(m.line.body, load);
+    out.add(m.line.body, load_of(c, flows.next(false)));
   }
+}
+
+Vector6 MorisonKind::whole_load(std::size_t member, const Reading& now) const {
+  const MorisonMember& m = members_[member];
+  const PerLength c(m, water_->water().density);
+  Flows flows(members_, *water_, {now.state, now.memory});
+  for (std::size_t k = 0; k < member; ++k) flows.skip();
+  const MemberFlow& flow = flows.next(false);
+  const Vector6 a = now.acceleration.segment<6>(6 * m.line.body);
+  return load_of(c, flow) - added_mass(c.added, flow.at, flow.pieces) * a;
+}
+
+std::vector<Signal> MorisonKind::signals() const {
+  std::vector<Signal> out;
+  for (std::size_t k = 0; k < members_.size(); ++k) {
+    if (!members_[k].told) continue;
+    const auto load = [this, k](const Reading& now) { return whole_load(k, now); };
+    for (Signal& s : member_load_signals(*members_[k].told, effect(), members_[k].line.body, load))
+      out.push_back(std::move(s));
+  }
+  return out;
 }
 
 void MorisonKind::add_jacobian(const Instant& now, JacobianSink& out) const {

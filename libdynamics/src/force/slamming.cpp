@@ -84,26 +84,36 @@ class Struck final : public Memory {
   std::vector<double> heights_;  // of the member that is looked at; kept, so that a step asks for no memory
 };
 
-/// Calls act(body, arm, force, velocity of the piece, velocity of the water at contact) for each piece under load.
+/// Calls act(body, arm, force, velocity of the piece, velocity of the water at contact) for each piece of a member that
+/// is under load.
 template <class Act>
-void for_each_load(const SlammingKind& kind, double step, const Instant& now, Act act) {
-  const auto& memory = static_cast<const Struck&>(*now.memory);
-  for (std::size_t k = 0; k < kind.members().size(); ++k) {
-    const SlammingMember& m = kind.members()[k];
-    const PlacedMember at = placed(m.line, now.state);
-    const double length = at.length / m.line.pieces;
-    for (std::size_t j = 0; j < memory.pieces(k).size(); ++j) {
-      const auto& strike = memory.pieces(k)[j].strike;
-      if (!strike) continue;
-      const double since = now.state.time - strike->begin;
-      if (since <= 0 || since - step >= strike->impact.duration()) continue;
-      // (D47): the mean over the last step.
-      const double mean = (strike->impact.impulse(since) - strike->impact.impulse(std::max(0.0, since - step))) / step;
-      const Vector3d arm = middle_arm(m, at, j);
-      act(m.line.body, arm, Vector3d(m.factor * length * mean * strike->direction), velocity_at(at, arm),
-          strike->water);
-    }
+void for_each_load_on(const SlammingKind& kind, std::size_t member, double step, const Instant& now, const Act& act) {
+  const SlammingMember& m = kind.members()[member];
+  const auto& pieces = static_cast<const Struck&>(*now.memory).pieces(member);
+  const PlacedMember at = placed(m.line, now.state);
+  const double length = at.length / m.line.pieces;
+  for (std::size_t j = 0; j < pieces.size(); ++j) {
+    const auto& strike = pieces[j].strike;
+    if (!strike) continue;
+    const double since = now.state.time - strike->begin;
+    if (since <= 0 || since - step >= strike->impact.duration()) continue;
+    // (D47): the mean over the last step.
+    const double mean = (strike->impact.impulse(since) - strike->impact.impulse(std::max(0.0, since - step))) / step;
+    const Vector3d arm = middle_arm(m, at, j);
+    act(m.line.body, arm, Vector3d(m.factor * length * mean * strike->direction), velocity_at(at, arm), strike->water);
   }
+}
+
+/// The same of all members.
+template <class Act>
+void for_each_load(const SlammingKind& kind, double step, const Instant& now, const Act& act) {
+  for (std::size_t k = 0; k < kind.members().size(); ++k) for_each_load_on(kind, k, step, now, act);
+}
+
+Vector6 load_at(const Vector3d& arm, const Vector3d& force) {
+  Vector6 load;
+  load << force, arm.cross(force);
+  return load;
 }
 
 }  // namespace
@@ -115,10 +125,26 @@ std::unique_ptr<Memory> SlammingKind::make_memory(const State& start) const {
 void SlammingKind::add_load(const Instant& now, LoadSink& out) const {
   for_each_load(*this, step_, now,
                 [&](int body, const Vector3d& arm, const Vector3d& force, const Vector3d&, const Vector3d&) {
-                  Vector6 load;
-                  load << force, arm.cross(force);
-                  out.add(body, load);
+                  out.add(body, load_at(arm, force));
                 });
+}
+
+std::vector<Signal> SlammingKind::signals() const {
+  std::vector<Signal> out;
+  for (std::size_t k = 0; k < members_.size(); ++k) {
+    if (!members_[k].told) continue;
+    const auto load = [this, k](const Reading& now) {
+      Vector6 sum = Vector6::Zero();
+      for_each_load_on(*this, k, step_, {now.state, now.memory},
+                       [&](int, const Vector3d& arm, const Vector3d& force, const Vector3d&, const Vector3d&) {
+                         sum += load_at(arm, force);
+                       });
+      return sum;
+    };
+    for (Signal& s : member_load_signals(*members_[k].told, effect(), members_[k].line.body, load))
+      out.push_back(std::move(s));
+  }
+  return out;
 }
 
 void SlammingKind::add_jacobian(const Instant& now, JacobianSink& out) const {

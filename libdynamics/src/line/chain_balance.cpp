@@ -26,7 +26,7 @@ ChainBalance::ChainBalance(const Line& line)
     : line_(line), loads_(line), eliminations_(static_cast<std::size_t>(line.segments())), matrix_(line.nodes()) {
   forces_ = x_ = v_ = a_ = there_.force = Places::Zero(3, line.nodes());
   there_.law = Eigen::VectorXd::Zero(line.segments());
-  any_at_nodes_ = line.has_spheres() || line.has_timed_loads();
+  any_at_nodes_ = line.has_bobs() || line.has_timed_loads();
   for (int i = 0; i < line.nodes(); ++i) any_at_nodes_ = any_at_nodes_ || !line.node(i).forces.empty();
   for (const Held& h : line.description().held) any_path_ = any_path_ || h.path != nullptr;
   const auto moves = [&](int i) { return line.held(i) != nullptr && line.held(i)->path != nullptr; };

@@ -136,7 +136,7 @@ void hang_free(const Line& line, int from, int towards, State& state) {
 }  // namespace
 
 State hanging_shape(const Line& line, const State& places) {
-  if (line.chains() > 1 || line.is_network() || line.has_spheres()) return network_shape(line, places);
+  if (line.chains() > 1 || line.is_network() || line.has_bobs()) return network_shape(line, places);
   State state = places;
   state.velocity = Places::Zero(3, line.nodes());
   state.tension = VectorXd::Zero(line.segments());

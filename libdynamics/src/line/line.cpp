@@ -44,8 +44,10 @@ void check(const Node& n, std::size_t i) {
   for (const TimedForce& load : n.loads)
     require(load.force.allFinite() && load.history.is_ordered(),
             "a load on node {} is not finite, or ends before it has risen", i);
-  require(n.sphere.diameter >= 0 && n.sphere.cd >= 0 && n.sphere.ca >= 0,
-          "diameter and coefficients of the sphere at node {} must not be negative", i);
+  require(n.bob.diameter >= 0 && n.bob.cd >= 0 && n.bob.ca >= 0,
+          "diameter and coefficients of the bob at node {} must not be negative", i);
+  require(n.bob.length >= 0 && (n.bob.is_sphere() || n.bob.wet == Wet::all),
+          "the bob at node {} is a cylinder, which has a length and is always wet", i);
 }
 
 /// Weight of the water that a segment displaces, N.
@@ -86,12 +88,11 @@ void Line::add_node(int i) {
   constant_.col(i) = n.force;
   constant_(2, i) -= n.mass * d_.gravity;
   timed_loads_ = timed_loads_ || !n.loads.empty();
-  if (n.sphere.diameter == 0) return;
-  spheres_ = true;
-  require(d_.water.field != nullptr, "node {} has a sphere, which needs water", i);
+  if (n.bob.diameter == 0) return;
+  bobs_ = true;
+  require(d_.water.field != nullptr, "node {} has a bob, which needs water", i);
   const hydro::Water& water = d_.water.field->water();
-  if (n.sphere.buoyancy && n.sphere.wet == Wet::all)
-    constant_(2, i) += water.density * water.gravity * n.sphere.volume();
+  if (n.bob.buoyancy && n.bob.wet == Wet::all) constant_(2, i) += water.density * water.gravity * n.bob.volume();
 }
 
 void Line::add_segment(int j) {

@@ -42,7 +42,7 @@ void Blocks::set_zero(int nodes, int segments) {
 }
 
 bool Loads::meets_water(int node) const {
-  return line_.description().water.wet != Wet::nothing || line_.node(node).sphere.diameter > 0;
+  return line_.description().water.wet != Wet::nothing || line_.node(node).bob.diameter > 0;
 }
 
 void Loads::look_at_water(const Motion& now) {
@@ -100,7 +100,7 @@ void Loads::add(const Motion& now, const By& by, Places& force, Blocks* derivati
 void Loads::add_at_nodes(const Motion& now, const By& by, Places& force, Blocks* derivative) const {
   add_node_forces(now, by, force, derivative);
   if (line_.has_timed_loads()) add_timed_loads(now.t, force);
-  if (line_.has_spheres()) add_spheres(now, by, force, derivative);
+  if (line_.has_bobs()) add_bobs(now, by, force, derivative);
 }
 
 void Loads::add_node_forces(const Motion& now, const By& by, Places& force, Blocks* derivative) const {
@@ -167,7 +167,7 @@ void Loads::add_powers_at_nodes(const Motion& now, LoadPowers& out) {
     add_timed_loads(now.t, node_forces_);
     out.load_supplied += node_forces_.cwiseProduct(now.v).sum();
   }
-  if (line_.has_spheres()) add_sphere_powers(now, out);
+  if (line_.has_bobs()) add_bob_powers(now, out);
 }
 
 }  // namespace dynamics::line

@@ -83,7 +83,7 @@ class Loads {
   void stay_in_piece_of(double t) { within_ = t; }
   double within() const { return within_; }
   bool are_wet() const { return line_.description().water.wet != Wet::nothing; }
-  bool meet_water() const { return are_wet() || line_.has_spheres(); }
+  bool meet_water() const { return are_wet() || line_.has_bobs(); }
   /// Whether segments are lifted by as much of them as is wet.
   bool lifts_what_is_wet() const {
     return line_.description().water.buoyancy && line_.description().water.wet == Wet::below_surface;
@@ -100,8 +100,8 @@ class Loads {
  private:
   void add_node_forces(const Motion& now, const By& by, Places& force, Blocks* derivative) const;
   void add_water(int j, const Motion& now, const By& by, Places& force, Blocks* derivative) const;
-  void add_spheres(const Motion& now, const By& by, Places& force, Blocks* derivative) const;
-  void add_sphere_powers(const Motion& now, LoadPowers& out) const;
+  void add_bobs(const Motion& now, const By& by, Places& force, Blocks* derivative) const;
+  void add_bob_powers(const Motion& now, LoadPowers& out) const;
 
   const Line& line_;
   bool meets_water(int node) const;

@@ -17,7 +17,7 @@ using Eigen::Vector3d;
 Places loads_at_rest(const Line& line) {
   Places out = line.constant_load();
   for (int i = 0; i < line.nodes(); ++i) {
-    const Sphere& s = line.node(i).sphere;
+    const Bob& s = line.node(i).bob;
     if (s.diameter == 0 || !s.buoyancy || s.wet != Wet::below_surface) continue;
     const hydro::Water& water = line.description().water.field->water();
     out(2, i) += water.density * water.gravity * s.volume();

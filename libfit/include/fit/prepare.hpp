@@ -2,9 +2,9 @@
 /// \file  From raw channels to a record that can be fitted, in steps that are named and kept; (F23)-(F26),
 ///        docs/theory/fit.md.
 ///
-/// Order of the steps: even grid, outliers, another rate, calibration and zero, delay, water, derivatives, trend,
-/// filters, band-pass, window, mean cycle. What acts on the force from the trend on acts on both columns of the model
-/// alike, so it takes noise and drift out and biases nothing.
+/// Order of the steps: even grid, outliers, levels, another rate, calibration and zero, delay, water, derivatives,
+/// trend, filters, band-pass, window, mean cycle. What acts on the force from the trend on acts on both columns of the
+/// model alike, so it takes noise and drift out and biases nothing.
 #include <optional>
 #include <string>
 #include <vector>
@@ -68,6 +68,8 @@ struct PrepareOptions {
   double longest_gap_s = 0;     ///< rows that may be missing at a stretch are bridged; 0: none may
   double outlier_window_s = 0;  ///< neighbours asked, half before and half after; 0: outliers are not looked for
   double outlier_deviations = 8;
+  /// Columns that know few levels become the curve through them (F111).
+  bool through_levels = false;
   double resample_hz = 0;              ///< all channels are brought to this rate (F48); 0: left as they are
   double delay_s = 0;                  ///< of the force behind the motion, taken off
   double derivative_bandwidth_hz = 0;  ///< 0: five times the main frequency

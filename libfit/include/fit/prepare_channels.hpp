@@ -2,8 +2,8 @@
 /// \file  Channels prepared by themselves, for whoever looks at a record without a model: spectra, extremes; (F22),
 ///        (F48), (F25), (F108), docs/theory/fit.md.
 ///
-/// Order of the steps: even grid, outliers, another rate, trend, filters, band-pass, window. Those that a fit has are
-/// the same functions in the same order.
+/// Order of the steps: even grid, outliers, levels, another rate, trend, filters, band-pass, window. Those that a fit
+/// has are the same functions in the same order.
 #include <cstddef>
 #include <optional>
 #include <string>

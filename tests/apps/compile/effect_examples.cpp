@@ -197,6 +197,7 @@ std::vector<Example> of_members() {
       in_waves("Morison", "", member(morison), {"morison"}),
       in_waves("Morison, wet in part", "",
                member("morison = { cd = 1.0, ca = 1.0, partial_immersion = true, pieces = 3 }\n", 0.5), {"morison"}),
+      in_waves("loads of a member", "", member(morison + "loads = true\n"), {"morison"}),
       in_waves("slamming", "", member("slamming = { model = \"goda\", pieces = 3 }\n", 0.5), {"slamming"}),
       in_waves("current", "", "[current]\nvelocity = \"(0.5, 0, 0) m/s\"\n" + member(morison), {"morison"})};
 }
@@ -242,6 +243,9 @@ std::vector<Example> of_lines() {
       line("a line wet in part", wide + "buoyancy = true\npartial_immersion = true\n"),
       line("Morison on a line", wide + "morison = { cd = 1.0, ca = 1.0 }\n"),
       line("waves at one place", wide + "morison = { cd = 1.0, ca = 1.0 }\nwaves = { at = \"(1, 0, -1) m\" }\n"),
+      line("a cylinder of its own at each bob",
+           "bob_cylinders = { length = \"1 m\", diameter = \"50 mm\", cd = 2.0, ca = 1.0, relative_acceleration = "
+           "true, componentwise = true }\n"),
       line("damping of a line", "damping = { quadratic = \"0.1 kg/m\", componentwise = true }\n"),
       line("growth", wide + "buoyancy = true\ngrowth = { thickness = \"10 mm\", density = \"1200 kg/m^3\" }\n"),
       line("bed", wide + "bed = { stiffness = \"3 MPa/m\" }\n"),
@@ -284,6 +288,10 @@ std::vector<Example> of_seas() {
           "kind = \"record\"\nfile = \"elevation.csv\"\ngauge = \"(-5, 0, 0) m\"\nlowest = \"0.7 rad/s\"\nhighest = "
           "\"2 "
           "rad/s\"\ntaper = \"2 s\"\n"),
+      sea("trains",
+          "kind = \"trains\"\ntrain = [{ height = \"0.5 m\", period = \"4 s\" }, { height = \"0.5 m\", period = \"3 "
+          "s\", "
+          "from = \"0.5 s\", fade = \"1 s\" }]\n"),
       sea("focused packets",
           "kind = \"focused_packets\"\nfile = \"waves.csv\"\nfocus = { position = \"(0, 0, 0) m\", time = \"1 s\" }\n"),
       sea("tank",

@@ -148,6 +148,33 @@ TEST(WavesOfLines, AreRefusedWhereNothingTakesThemAndBelowTheBed) {
   EXPECT_THAT(refused([&] { simulate(parse(below)); }), HasSubstr("below the bed"));
 }
 
+/// A bob of 20 kg on a link of 1 m without mass, in a stream of 0.5 m/s.
+std::string in_stream(const std::string& more) {
+  return water +
+         "[current]\nvelocity = \"(0.5, 0, 0) m/s\"\n[[line]]\nname = \"p\"\nfrom = \"(0, 0, -1) m\"\nnode_mass = \"20 "
+         "kg\"\nlink = [{ length = \"1 m\", mass = \"0 kg\" }]\n" +
+         more + ask;
+}
+const std::string cylinder = "length = \"1.2 m\"\ndiameter = \"0.1 m\"\ncd = 2.0\nca = 1.0\n";
+
+// ½ρC_D Dℓ U² = 30 N against 20 kg of weight, however the link hangs: a rod is loaded across it alone.
+TEST(BobCylinders, HangAsideByTheirDragOverTheirWeight) {
+  const auto run = simulate(parse(in_stream("[line.bob_cylinders]\n" + cylinder)));
+  EXPECT_NEAR(run.signal("p.node1.x").front(), std::sin(std::atan(30 / (20 * g))), 1e-7);
+  EXPECT_NEAR(run.signal("p.node1.x").back(), run.signal("p.node1.x").front(), 1e-6);
+}
+
+TEST(BobCylinders, AreRefusedBesideOtherLoadsOfTheSameWater) {
+  EXPECT_THAT(
+      refused([&] {
+        parse(in_stream("diameter = \"0.1 m\"\nmorison = { cd = 1, ca = 1 }\n[line.bob_cylinders]\n" + cylinder));
+      }),
+      HasSubstr("beside [line.morison]"));
+  EXPECT_THAT(
+      refused([&] { parse(in_stream("diameter = \"0.1 m\"\nbuoyancy = true\n[line.bob_cylinders]\n" + cylinder)); }),
+      HasSubstr("beside buoyancy"));
+}
+
 TEST(BodyLoads, PushASledgeByTheirImpulse) {
   const auto run =
       simulate(parse(sledge("from = \"0.313 s\"\nramp_up = \"0.5 s\"\nuntil = \"1.507 s\"\nramp_down = \"0.8 s\"\n")));

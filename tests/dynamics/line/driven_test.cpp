@@ -250,7 +250,7 @@ FastenedLineKind bridle_on_bodies() {
   const int second = append(d, ends_free(3, 3)), third = append(d, ends_free(2, 5));
   d.held = {{.node = 0}, {.node = second}, {.node = third + 2}};
   d.ties = {{2, second + 3, third}};
-  d.nodes[2].sphere = {.diameter = 0.3, .cd = 0.6, .ca = 0.5, .wet = Wet::all, .buoyancy = true};
+  d.nodes[2].bob = {.diameter = 0.3, .cd = 0.6, .ca = 0.5, .wet = Wet::all, .buoyancy = true};
   d.water.field = std::make_shared<hydro::waves::HarmonicField>(std::vector<hydro::waves::Harmonic>{}, hydro::Water{},
                                                                 hydro::waves::HarmonicField::Options{});
   return FastenedLineKind(

@@ -169,7 +169,7 @@ Description everything() {
   d.segments[1].catenary = d.segments[4].catenary = false;
   d.segments[4].tension_only = true;
   d.held = {{.node = 0}};
-  d.nodes[3] = {.mass = 5, .sphere = {.diameter = 0.4, .cd = 1, .ca = 0.5, .wet = Wet::all, .buoyancy = true}};
+  d.nodes[3] = {.mass = 5, .bob = {.diameter = 0.4, .cd = 1, .ca = 0.5, .wet = Wet::all, .buoyancy = true}};
   d.nodes[2].forces = {std::make_shared<NodeDamping>(NodeDamping::Coefficients{30, 20, false})};
   d.water.field = std::make_shared<hw::HarmonicField>(std::vector<hw::Harmonic>{}, sea_water,
                                                       hw::HarmonicField::Options{}, hw::Current::uniform({0.4, 0.3}));

@@ -2,9 +2,11 @@
 /// \file  Morison's load on slender members that move, at their true position: drag across and along the axis,
 ///        Froude–Krylov, and added mass on the left of the equations of motion. (D43)-(D45)
 #include <memory>
+#include <optional>
 
 #include "dynamics/force/force_kind.hpp"
 #include "dynamics/force/member.hpp"
+#include "dynamics/force/member_signals.hpp"
 
 namespace dynamics {
 
@@ -16,6 +18,7 @@ struct MorisonMember {
   SlenderMember line;
   double cd, ca;
   double cd_tangential = 0;  ///< of the wetted skin πD
+  std::optional<ToldLoad> told = {};
 };
 
 /// What a cylinder takes of flow across its axis, per length (D43): coefficients of drag and of the mass of water, and
@@ -62,8 +65,11 @@ class MorisonKind final : public ForceKind {
   void add_jacobian(const Instant& now, JacobianSink& out) const override;
   void add_mass(const State& state, MassSink& out) const override;
   EnergyFlow energy(const Instant& now) const override;
+  /// Of members that tell their loads, with −M a of their own added mass. (D154)
+  std::vector<Signal> signals() const override;
 
  private:
+  Vector6 whole_load(std::size_t member, const Reading& now) const;
   /// Added mass of the members that are always wet, about the body's centre of gravity, body axes.
   struct BodyMass {
     int body;

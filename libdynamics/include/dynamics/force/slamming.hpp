@@ -1,9 +1,11 @@
 #pragma once
 /// \file  Impact of water on members that it meets: each piece is struck once when its axis goes under. (D47)
 #include <memory>
+#include <optional>
 
 #include "dynamics/force/force_kind.hpp"
 #include "dynamics/force/member.hpp"
+#include "dynamics/force/member_signals.hpp"
 #include "hydro/waves/kinematics/impact.hpp"
 
 namespace dynamics {
@@ -20,6 +22,7 @@ struct SlammingMember {
   hydro::waves::ImpactTheory theory;
   ImpactBegins begins = ImpactBegins::line;
   double factor = 1;  ///< of the theory's force
+  std::optional<ToldLoad> told = {};
 };
 
 /// The load of a struck piece points along the velocity of the water relative to it across its axis at the first whole
@@ -38,6 +41,8 @@ class SlammingKind final : public ForceKind {
   void add_load(const Instant& now, LoadSink& out) const override;
   void add_jacobian(const Instant& now, JacobianSink& out) const override;
   EnergyFlow energy(const Instant& now) const override;
+  /// Of members that tell their loads: the mean over the last step. (D154)
+  std::vector<Signal> signals() const override;
 
   const std::vector<SlammingMember>& members() const { return members_; }
   const hydro::waves::WaveField& water() const { return *water_; }

@@ -45,14 +45,23 @@ struct Segment {
 /// Which part of something is taken as wet.
 enum class Wet { nothing, all, below_surface };
 
-/// A float or sinker at a node. (D113)
-struct Sphere {
-  double diameter = 0;    ///< m; 0: there is none
-  double cd = 0, ca = 0;  ///< drag by its section πD²/4, added mass by its volume
-  Wet wet = Wet::all;
+/// What the water meets at a node: a float or sinker (D113), or a cylinder that stands for what hangs there (D153). Its
+/// loads know no axis: they are the same from all sides.
+struct Bob {
+  double diameter = 0;         ///< m; 0: there is none
+  double cd = 0, ca = 0;       ///< drag by its section, added mass by its volume
+  double length = 0;           ///< of a cylinder, m; 0: a sphere
+  bool by_component = false;   ///< drag of each component of the velocity by itself, which depends on the axes
+  bool relative_only = false;  ///< no Froude–Krylov load: C_A ρV times the acceleration of the water past it
+  Wet wet = Wet::all;          ///< of a cylinder all
   bool buoyancy = false;
 
-  double volume() const { return std::numbers::pi / 6 * diameter * diameter * diameter; }  ///< m³
+  bool is_sphere() const { return length == 0; }
+  /// Across the flow, m².
+  double section() const { return is_sphere() ? std::numbers::pi / 4 * diameter * diameter : diameter * length; }
+  double volume() const {  ///< m³
+    return std::numbers::pi * diameter * diameter * (is_sphere() ? diameter / 6 : length / 4);
+  }
 };
 
 /// A force that is given over time. (D150)
@@ -64,7 +73,7 @@ struct TimedForce {
 struct Node {
   double mass = 0;                                  ///< a bob, clump or pin besides the segments' own, kg
   Eigen::Vector3d force = Eigen::Vector3d::Zero();  ///< constant, N
-  Sphere sphere = {};
+  Bob bob = {};
   std::vector<std::shared_ptr<const NodeForce>> forces = {};  ///< by its place and velocity, as NodeDamping
   double share = 1;                                           ///< of each of them that acts here
   std::vector<TimedForce> loads = {};                         ///< what they give is counted as supplied
@@ -169,7 +178,7 @@ class Line {
   const Places& constant_load() const { return constant_; }
   /// Area of bed under a node, m²: diameter times half of each segment beside it that meets the bed.
   double bed_area(int i) const { return bed_area_[i]; }
-  bool has_spheres() const { return spheres_; }
+  bool has_bobs() const { return bobs_; }
   bool has_timed_loads() const { return timed_loads_; }
   /// Of the histories of loads on nodes, the first corner after t; ∞: there is none. (D150)
   double next_corner(double t) const;
@@ -190,7 +199,7 @@ class Line {
   std::vector<int> first_, after_, tie_;  // −1: none
   Eigen::VectorXd diagonal_, between_, bed_area_, sag_weight_, bending_;
   double hardest_bending_ = 0;
-  bool spheres_ = false, timed_loads_ = false;
+  bool bobs_ = false, timed_loads_ = false;
   Places constant_;
 };
 
