@@ -59,7 +59,7 @@ VectorXd acceleration_of_rates(const VectorXd& displacement, const VectorXd& rat
 }
 
 /// M a + gyro of the model's equations (D8).
-VectorXd inertia(const Model& model, const State& state, const VectorXd& acceleration) {
+VectorXd inertial_forces(const Model& model, const State& state, const VectorXd& acceleration) {
   VectorXd out = model.mass_times(state, acceleration);
   const VectorXd momentum = model.dry_mass(state) * state.velocity;
   for (Index row = 3; row < out.size(); row += 6)
@@ -254,7 +254,7 @@ PeriodicSample PeriodicModel::sample(const CoordinateMotion& motion, const Vecto
   // coordinates.
   const MatrixXd by_displacement = load_slope(here.state, 1, 0) * N, slope = load_slope(here.state, 0, 1);
   const auto unloaded = [&](const Bodies& b) {
-    return VectorXd(b.by_coordinate.transpose() * (inertia(model_, b.state, b.acceleration) - loads));
+    return VectorXd(b.by_coordinate.transpose() * (inertial_forces(model_, b.state, b.acceleration) - loads));
   };
   const VectorXd still = central ? VectorXd() : unloaded(here);
   for (Index k = 0; k < n; ++k) {
