@@ -17,7 +17,9 @@ class PeriodicAnswers {
   /// All are referred to and must live as long. \throws hydro::InputError at a name that is no signal's
   PeriodicAnswers(const scene::Scene& scene, const compile::Prepared& prepared);
 
-  std::unique_ptr<PeriodicScene> at(double period, double height) const;
+  /// In these waves; the same system as long as they are asked for one time after another, as for a motion, its
+  /// multipliers and its deviations, so that joints are closed from where they were.
+  std::shared_ptr<PeriodicScene> at(double period, double height) const;
   dynamics::frequency::Family by_height(double period) const;
   dynamics::frequency::Family by_period(double height) const;
   /// Near `start`, whose period may be another.
@@ -47,6 +49,11 @@ class PeriodicAnswers {
   const scene::Scene& scene_;
   const compile::Prepared& prepared_;
   dynamics::frequency::BalanceOptions options_;
+  struct Last {
+    double period, height;
+    std::shared_ptr<PeriodicScene> system;
+  };
+  mutable Last last_{};
 };
 
 /// One branch that [ask.stability] asks for, from the lowest period or height of the map to the highest, as far as

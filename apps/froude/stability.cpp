@@ -271,8 +271,8 @@ void write_boundaries(const Path& path, const StabilityMap& map) {
 }
 
 /// Marks in the cells of one fate; "none found" is one too, waves beyond breaking are left empty, and jumps are marked
-/// beside what becomes of them.
-std::vector<plot::Series> marks_of_fates(const StabilityMap& map) {
+/// beside what becomes of them. `told`: after the fates of motions that do not last.
+std::vector<plot::Series> marks_of_fates(const StabilityMap& map, const std::string& told) {
   std::vector<plot::Series> out;
   const auto mark = [&](std::size_t c, const std::string& name, const char* colour) {
     auto at = std::find_if(out.begin(), out.end(), [&](const auto& s) { return s.name == name; });
@@ -285,7 +285,8 @@ std::vector<plot::Series> marks_of_fates(const StabilityMap& map) {
     const Cell& cell = map.cells[c];
     if (cell.reached == Reached::jumped) mark(c, "jumped", "#0072b2");
     if (cell.fate == dynamics::frequency::Fate::stable || cell.reached == Reached::beyond_breaking) continue;
-    mark(c, fate_of(cell), cell.fate == dynamics::frequency::Fate::doubled ? "#111111" : "#cc79a7");
+    mark(c, fate_of(cell) + (cell.fate ? told : ""),
+         cell.fate == dynamics::frequency::Fate::doubled ? "#111111" : "#cc79a7");
   }
   return out;
 }
@@ -293,24 +294,20 @@ std::vector<plot::Series> marks_of_fates(const StabilityMap& map) {
 /// Of each signal its standard deviation, with both boundaries and what becomes of motions that do not last.
 std::vector<plot::Panel> panels_of_map(const StabilityMap& map) {
   std::vector<plot::Panel> out;
-  std::vector<plot::Series> over = {
-      floquet_boundary(map), {.name = "Mathieu", .x = map.period, .y = map.mathieu, .dashed = true, .colour = red}};
-  for (plot::Series& marks : marks_of_fates(map)) over.push_back(std::move(marks));
-  const auto add = [&](plot::Axis value, const std::vector<double>& values) {
+  const auto add = [&](plot::Axis value, const std::vector<double>& values, const std::string& told) {
+    std::vector<plot::Series> over = {
+        floquet_boundary(map), {.name = "Mathieu", .x = map.period, .y = map.mathieu, .dashed = true, .colour = red}};
+    for (plot::Series& marks : marks_of_fates(map, told)) over.push_back(std::move(marks));
     out.push_back({.x = {"wave period", "s"},
                    .y = {"wave height", "m"},
-                   .series = over,
+                   .series = std::move(over),
                    .field = field(map, std::move(value), values)});
   };
   std::vector<double> multiplier;
   for (const Cell& c : map.cells) multiplier.push_back(c.multiplier);
-  add({"largest |multiplier|", ""}, multiplier);
+  add({"largest |multiplier|", ""}, multiplier, "");
   // The field goes on where a run goes elsewhere: said where the marks are.
-  const bool all_last = std::all_of(map.cells.begin(), map.cells.end(), [](const Cell& c) {
-    return c.fate == dynamics::frequency::Fate::stable || c.reached == Reached::beyond_breaking;
-  });
-  for (const Signal& s : map.signals)
-    add({s.name + (all_last ? ", std. dev." : ", std. dev. (not reached where marked)"), s.units}, s.values);
+  for (const Signal& s : map.signals) add({s.name + ", std. dev.", s.units}, s.values, ", not reached");
   return out;
 }
 

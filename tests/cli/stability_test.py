@@ -60,7 +60,7 @@ class Stability(unittest.TestCase):
         self.assertEqual(len(rows), 1 + 4)
         picture = (self.folder / "map.svg").read_text()
         self.assertIn("</svg>", picture)
-        self.assertIn("pivot.angle, std. dev. (not reached where marked)", picture)
+        self.assertIn("period-doubled, not reached", picture)
 
     def test_a_run_leaves_a_motion_that_doubles(self):
         done = self.froude(self.asking('stability = { periods = "7.4 s .. 7.5 s, 2 values", heights = "2 m .. 2.5 m, 2 values", '

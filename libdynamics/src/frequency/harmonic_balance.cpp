@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "dynamics/frequency/floquet.hpp"
+#include "harmonics.hpp"
 #include "hydro/base/dense.hpp"
 #include "hydro/base/error.hpp"
 
@@ -477,21 +478,6 @@ FollowedBranch follow(const Family& family, double from, double to, PeriodicMoti
 }
 
 namespace {
-
-/// 1, cos θ, sin θ, cos 2θ, …, (2H + 1), each from the one before: rounding grows as H.
-VectorXd harmonics_at(Index H, double theta) {
-  VectorXd out(2 * H + 1);
-  const double c = std::cos(theta), s = std::sin(theta);
-  double x = 1, y = 0;
-  out[0] = 1;
-  for (Index h = 1; h <= H; ++h) {
-    const double turned = x * c - y * s;
-    y = x * s + y * c;
-    x = turned;
-    out.segment<2>(2 * h - 1) << x, y;
-  }
-  return out;
-}
 
 /// The harmonics up to the last that is more than rounding.
 MatrixXd audible(const MatrixXd& series) {

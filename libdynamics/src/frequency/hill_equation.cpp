@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "dynamics/frequency/floquet.hpp"
+#include "harmonics.hpp"
 #include "hydro/base/error.hpp"
 
 namespace dynamics::frequency {
@@ -28,10 +29,9 @@ Eigen::Vector3d along(PeriodicSystem& system, const CoordinateMotion& motion, co
 }  // namespace
 
 double HillEquation::growth(double size) const {
-  const PeriodicMotion varying{omega, by_size};
   const auto a = [&](double t) {
     Eigen::Vector3d kcm = at_rest;
-    kcm += size * varying.at(t).value;
+    kcm += size * (by_size * harmonics_at(by_size.cols() / 2, omega * t));
     return Eigen::MatrixXd(Eigen::Matrix2d{{0, 1}, {-kcm[0] / kcm[2], -kcm[1] / kcm[2]}});
   };
   return std::abs(floquet_multipliers(a, 2 * std::numbers::pi / omega)[0]);

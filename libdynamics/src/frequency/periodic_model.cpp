@@ -58,6 +58,15 @@ VectorXd acceleration_of_rates(const VectorXd& displacement, const VectorXd& rat
   return out;
 }
 
+/// M a + gyro of the model's equations (D8).
+VectorXd inertial_forces(const Model& model, const State& state, const VectorXd& acceleration) {
+  VectorXd out = model.mass_times(state, acceleration);
+  const VectorXd momentum = model.dry_mass(state) * state.velocity;
+  for (Index row = 3; row < out.size(); row += 6)
+    out.segment<3>(row) += state.velocity.segment<3>(row).cross(momentum.segment<3>(row));
+  return out;
+}
+
 /// A, B, C of all groups side by side.
 void append(MatrixXd& whole, const MatrixXd& part) {
   const Index rows = whole.rows(), columns = whole.cols();
@@ -113,32 +122,47 @@ VectorXd PeriodicModel::expanded(const VectorXd& free) const {
   return out;
 }
 
+PeriodicModel::Closed PeriodicModel::placed(VectorXd displacement) const {
+  const JointSet& joints = model_.joints();
+  const Index n = size(), m = joints.count();
+  Closed out;
+  move(rest_, displacement, out.state);
+  out.J = velocity_by_displacement(displacement);
+  out.G = joints.dense(joints.gradients(out.state));
+  MatrixXd S(n + m, static_cast<Index>(free_.size()));
+  S.topRows(n) = inverse_(Eigen::all, free_);
+  S.bottomRows(m) = (out.G * out.J)(Eigen::all, free_);
+  out.square.emplace(S);
+  out.displacement = std::move(displacement);
+  return out;
+}
+
+void PeriodicModel::find_derivatives(Closed& at) const {
+  const Index n = size(), m = model_.joints().count();
+  at.by_y.resize(basis_.rows(), n);
+  for (Index k = 0; k < n; ++k) at.by_y.col(k) = expanded(at.square->solve(VectorXd::Unit(n + m, k)));
+  at.by_coordinate = at.J * at.by_y;
+}
+
 // (Q13)
 PeriodicModel::Closed PeriodicModel::closed(const VectorXd& value, VectorXd displacement) const {
   const JointSet& joints = model_.joints();
-  const Index n = size(), m = joints.count(), free = static_cast<Index>(free_.size());
-  VectorXd right(n + m);
-  MatrixXd S(n + m, free), J;
-  S.topRows(n) = inverse_(Eigen::all, free_);
-  State state;
-  // J and S are those before the last change (m, rad), and what is left is its square.
+  VectorXd right(size() + joints.count());
+  // J, G and S are those before the last change (m, rad), and what is left is its square.
   constexpr double rounding = 1e-10;
   constexpr int most = 20;
   for (int i = 0;; ++i) {
-    move(rest_, displacement, state);
-    J = velocity_by_displacement(displacement);
-    S.bottomRows(m) = (joints.dense(joints.gradients(state)) * J)(Eigen::all, free_);
-    right << value - inverse_ * displacement, -joints.values(state);
-    hydro::dense::Lu square(S);
-    const VectorXd change = square.solve(right);
+    Closed here = placed(std::move(displacement));
+    right << value - inverse_ * here.displacement, -joints.values(here.state);
+    const VectorXd change = here.square->solve(right);
     if (!change.allFinite() || i == most)
       throw hydro::NumericsError("joints cannot be closed in a periodic motion that is tried");
-    displacement += expanded(change);
+    displacement = here.displacement + expanded(change);
     if (change.cwiseAbs().maxCoeff() > rounding) continue;
-    move(rest_, displacement, state);
-    MatrixXd by_y(basis_.rows(), n);
-    for (Index k = 0; k < n; ++k) by_y.col(k) = expanded(square.solve(VectorXd::Unit(n + m, k)));
-    return {std::move(state), std::move(displacement), std::move(J), std::move(by_y), std::move(square)};
+    move(rest_, displacement, here.state);
+    here.displacement = std::move(displacement);
+    find_derivatives(here);
+    return here;
   }
 }
 
@@ -162,20 +186,17 @@ const PeriodicModel::Closed& PeriodicModel::place_of(const CoordinateMotion& mot
 PeriodicModel::Bodies PeriodicModel::moving(const Closed& at, const CoordinateMotion& motion) const {
   const JointSet& joints = model_.joints();
   const Index n = size(), m = joints.count();
-  Bodies out{at.state, {}, at.J * at.by_y};
+  Bodies out{at.state, {}, at.by_coordinate};
   const VectorXd rate = at.by_y * motion.rate, bent = acceleration_of_rates(at.displacement, rate, at.J);
   out.state.velocity = at.J * rate;
   out.state.time = motion.time;
   VectorXd right(n + m);
-  right << motion.acceleration, -joints.convective(out.state);
-  right.tail(m) -= joints.dense(joints.gradients(out.state)) * bent;
-  out.acceleration = at.J * expanded(at.square.solve(right)) + bent;
+  right << motion.acceleration, -joints.convective(out.state) - at.G * bent;
+  out.acceleration = at.J * expanded(at.square->solve(right)) + bent;
   return out;
 }
 
-PeriodicModel::Bodies PeriodicModel::bodies(const CoordinateMotion& motion) const {
-  return moving(closed(motion.value, basis_ * motion.value), motion);
-}
+PeriodicModel::Bodies PeriodicModel::bodies(const CoordinateMotion& motion) { return moving(place_of(motion), motion); }
 
 VectorXd PeriodicModel::residual(const Bodies& b, const VectorXd& load) {
   VectorXd out = model_.residual(b.state, b.acceleration, workspace_);
@@ -207,38 +228,58 @@ PeriodicSample PeriodicModel::roughly_at(const CoordinateMotion& motion, const V
   return sample(motion, load, false);
 }
 
+MatrixXd PeriodicModel::load_slope(const State& state, double by_displacement, double by_velocity) {
+  BlockMatrix out(model_.pattern());
+  JacobianSink sink(out, by_displacement, by_velocity);
+  for (std::size_t k = 0; k < model_.forces().size(); ++k)
+    model_.forces()[k]->add_jacobian(workspace_.instant(state, k), sink);
+  return out.dense();
+}
+
 PeriodicSample PeriodicModel::sample(const CoordinateMotion& motion, const VectorXd& load, bool central) {
   const Index n = size(), m = static_cast<Index>(radiating_.size());
   const Closed& place = place_of(motion);
   const Bodies here = moving(place, motion);
-  const auto projected = [&](const Bodies& b) { return VectorXd(b.by_coordinate.transpose() * residual(b, load)); };
-  PeriodicSample out{.residual = projected(here),
+  const MatrixXd& N = here.by_coordinate;
+  PeriodicSample out{.residual = N.transpose() * residual(here, load),
                      .by_value = MatrixXd(n, n),
                      .by_rate = MatrixXd(n, n),
                      .by_acceleration = MatrixXd(n, n),
-                     .by_load = -here.by_coordinate(radiating_, Eigen::all).transpose(),
+                     .by_load = -N(radiating_, Eigen::all).transpose(),
                      .velocity_by_value = MatrixXd(m, n),
-                     .velocity_by_rate = here.by_coordinate(radiating_, Eigen::all)};
-  for (Index k = 0; k < n; ++k)
-    out.by_acceleration.col(k) =
-        here.by_coordinate.transpose() * model_.mass_times(here.state, here.by_coordinate.col(k));
+                     .velocity_by_rate = N(radiating_, Eigen::all)};
+  VectorXd loads = workspace_.load;
+  for (Index i = 0; i < m; ++i) loads[radiating_[static_cast<std::size_t>(i)]] += load[i];
+  // Loads vary by their own derivatives, all else, which costs little, by differences: inertia, and what joints make of
+  // coordinates.
+  const MatrixXd by_displacement = load_slope(here.state, 1, 0) * N, slope = load_slope(here.state, 0, 1);
+  const auto unloaded = [&](const Bodies& b) {
+    return VectorXd(b.by_coordinate.transpose() * (inertial_forces(model_, b.state, b.acceleration) - loads));
+  };
+  const VectorXd still = central ? VectorXd() : unloaded(here);
   for (Index k = 0; k < n; ++k) {
+    out.by_acceleration.col(k) = N.transpose() * model_.mass_times(here.state, N.col(k));
+    // Beside it joints are open by the square of the step, to both sides alike.
     const auto beside = [&](double h) {
-      CoordinateMotion moved = motion;
-      moved.value[k] += h;
-      return moving(closed(moved.value, place.displacement + h * place.by_y.col(k)), moved);
+      Closed moved = placed(place.displacement + h * place.by_y.col(k));
+      find_derivatives(moved);
+      return moving(moved, motion);
     };
     const auto faster = [&](double h) {
       CoordinateMotion moved = motion;
       moved.rate[k] += h;
-      return projected(moving(place, moved));
+      return unloaded(moving(place, moved));
     };
-    const double h = step_[k], rate = step_[k] * omega_, width = central ? 2 : 1;
+    // By rates it is a square: no step is too long.
+    const double h = step_[k], rate = 1e3 * h * omega_, width = central ? 2 * h : h;
     const Bodies above = beside(h), below = central ? beside(-h) : here;
-    out.by_value.col(k) = (projected(above) - (central ? projected(below) : out.residual)) / (width * h);
-    out.velocity_by_value.col(k) = (above.state.velocity - below.state.velocity)(radiating_) / (width * h);
-    out.by_rate.col(k) = (faster(rate) - (central ? faster(-rate) : out.residual)) / (width * rate);
+    const VectorXd velocity = (above.state.velocity - below.state.velocity) / width;
+    out.velocity_by_value.col(k) = velocity(radiating_);
+    out.by_value.col(k) = (unloaded(above) - (central ? unloaded(below) : still)) / width +
+                          N.transpose() * (by_displacement.col(k) + slope * velocity);
+    out.by_rate.col(k) = (faster(rate) - faster(-rate)) / (2 * rate);
   }
+  out.by_rate += N.transpose() * slope * N;
   return out;
 }
 

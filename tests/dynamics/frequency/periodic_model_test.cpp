@@ -7,6 +7,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "dynamics/force/connector.hpp"
+#include "dynamics/force/drag.hpp"
 #include "dynamics/force/gravity.hpp"
 #include "dynamics/frequency/hill_equation.hpp"
 #include "dynamics/spatial/rotation.hpp"
@@ -25,10 +27,10 @@ RigidBody body(const std::string& name, const Vector3d& at) {
   return RigidBody({.name = name, .mass = 3, .inertia = Vector3d(1, 2, 2.5).asDiagonal(), .rest_position = {at}});
 }
 
-/// A rod on a universal joint at the origin, and a collar that slides along it: three motions, in space.
-Model rod_with_collar() {
+/// A rod on a universal joint at the origin, and a collar that slides along it: three motions, in space. Other loads
+/// than weight may act.
+Model rod_with_collar(std::vector<std::unique_ptr<const ForceKind>> forces = {}) {
   std::vector<RigidBody> bodies{body("rod", {0, 0, -2}), body("collar", {0, 0, -3})};
-  std::vector<std::unique_ptr<const ForceKind>> forces;
   forces.push_back(std::make_unique<GravityKind>(bodies, g));
   return Model(bodies, {}, std::move(forces),
                {{.name = "top", .kind = JointKind::universal, .first = 0, .second = {}, .place = Vector3d::Zero()},
@@ -88,21 +90,39 @@ TEST(PeriodicModel, ResidualIsThatOfVirtualPower) {
   EXPECT_NEAR(periodic.at(m, VectorXd()).residual.dot(m.rate), power, 1e-10 * std::abs(power));
 }
 
+/// A spring and damper from the rod to the ground, and drag on the collar: loads by places and by velocities.
+std::vector<std::unique_ptr<const ForceKind>> spring_and_drag() {
+  std::vector<std::unique_ptr<const ForceKind>> out;
+  const Ends ends{{0, Vector3d(0.1, 0.2, -1)}, PointOnGround{Vector3d(2, 1, -3)}};
+  out.push_back(
+      std::make_unique<AxialConnectorKind>(std::vector<AxialConnector>{{ends, {.stiffness = 40, .damping = 5}, 2}}));
+  out.push_back(std::make_unique<DragKind>(
+      std::vector<DragPiece>{{.body = 1, .arm = {0.3, 0, -0.5}, .axis = Vector3d::UnitZ(), .factor = 4}},
+      std::nullopt));
+  return out;
+}
+
 TEST(PeriodicModel, DerivativesAreThoseOfItsResidual) {
-  const Model model = rod_with_collar();
+  const Model model = rod_with_collar(spring_and_drag());
   const SmallMotions about(model);
   PeriodicModel periodic(model, about, {}, 1);
   const CoordinateMotion m = wild(0.7);
-  const PeriodicSample at = periodic.at(m, VectorXd());
+  const PeriodicSample at = periodic.at(m, VectorXd()), roughly = periodic.roughly_at(m, VectorXd());
   const double size = at.residual.norm(), h = 1e-3;
-  for (Eigen::Index k = 0; k < 3; ++k) {
+  const auto slope = [&](VectorXd CoordinateMotion::*of, Eigen::Index k, double step) {
     CoordinateMotion high = m, low = m;
-    high.acceleration[k] += 1, low.acceleration[k] -= 1;
-    const VectorXd by_a = (periodic.at(high, VectorXd()).residual - periodic.at(low, VectorXd()).residual) / 2;
+    (high.*of)[k] += step, (low.*of)[k] -= step;
+    return VectorXd((periodic.residual_at(high, VectorXd()) - periodic.residual_at(low, VectorXd())) / (2 * step));
+  };
+  for (Eigen::Index k = 0; k < 3; ++k) {
+    const VectorXd by_a = slope(&CoordinateMotion::acceleration, k, 1), by_y = slope(&CoordinateMotion::value, k, h),
+                   by_v = slope(&CoordinateMotion::rate, k, h);
     EXPECT_LT((by_a - at.by_acceleration.col(k)).norm(), 1e-10 * size);  // linear
-    high = m, low = m, high.value[k] += h, low.value[k] -= h;
-    const VectorXd by_y = (periodic.at(high, VectorXd()).residual - periodic.at(low, VectorXd()).residual) / (2 * h);
-    EXPECT_LT((by_y - at.by_value.col(k)).norm(), 1e-5 * size);  // a step a hundred times as long: h²
+    EXPECT_LT((by_y - at.by_value.col(k)).norm(), 1e-5 * size);          // a step a hundred times as long: h²
+    EXPECT_LT((by_v - at.by_rate.col(k)).norm(), 1e-5 * size);           // of drag, h²
+    // Differences to one side, by 1e-5 m.
+    EXPECT_LT((by_y - roughly.by_value.col(k)).norm(), 1e-4 * size);
+    EXPECT_LT((at.by_rate - roughly.by_rate).norm(), 1e-10 * size);
   }
 }
 

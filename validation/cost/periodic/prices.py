@@ -22,6 +22,9 @@ SIGNALS = ("pivot.angle", "rack.stroke")
 KEPT = 8  # last periods of a run, of which deviations are taken
 STEPS = (0.1, 0.05, 0.025)  # s
 REPEATS = 2  # least time of so many
+PERIODS, HEIGHTS = 40, 20  # cells of the map
+RUN_PERIODS, RUN_HEIGHTS = 8, 5  # of its range that are run: a twentieth of the cells
+TOLERANCES = (1e-2, 5e-4)  # of the memory: that of the scene, and that of the runs
 
 
 def scene(ask, accuracy):
@@ -96,6 +99,42 @@ def by_steps(froude, duration, step):
     return deviations(rows_of(taken[0][2])), whole, whole - start
 
 
+def by_map(froude, tolerance):
+    """Least time of the process that maps all cells, s."""
+    text = scene(f'stability = {{ periods = "6 s .. 9.9 s, {PERIODS} values", heights = "0.2 m .. 4 m, {HEIGHTS} values", '
+                 f'of = ["pivot.angle", "rack.stroke"] }}', 2e-2)
+    text = text.replace("memory_tolerance = 1e-2", f"memory_tolerance = {tolerance}")
+    return min(process(froude, "stability", text)[0] for _ in range(REPEATS))
+
+
+def by_study(froude):
+    """Time of the process that runs a part of the cells of examples/sweep/tongue.toml, s a cell."""
+    study = (ROOT / "examples/sweep/tongue.toml").read_text()
+    study = study[:study.index("[[picture]]")].replace('"../buoy.toml"', f'"{ROOT}/examples/buoy.toml"')
+    study = study.replace("9.9 s, 40 values", f"9.9 s, {RUN_PERIODS} values")
+    study = study.replace("4 m, 20 values", f"4 m, {RUN_HEIGHTS} values")
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "study.toml"
+        path.write_text(study)
+        child = subprocess.Popen([froude, "sweep", str(path), "-o", str(Path(folder) / "runs")], stdout=subprocess.DEVNULL,
+                                 env=dict(os.environ, OPENBLAS_NUM_THREADS="1", FROUDE_CACHE="off"))
+        _, status, usage = os.wait4(child.pid, 0)
+        if status != 0:
+            raise SystemExit("froude sweep failed")
+        return (usage.ru_utime + usage.ru_stime) / (RUN_PERIODS * RUN_HEIGHTS)
+
+
+def map_rows(froude):
+    """A row of runs, and one of the map for each tolerance of the memory."""
+    cells = PERIODS * HEIGHTS
+    maps = [by_map(froude, tolerance) for tolerance in TOLERANCES]
+    a_run = by_study(froude)
+    rows = [f"| runs of 600 s | {TOLERANCES[-1]:g} | {1000 * a_run:.0f} | {cells * a_run:.0f} | 1 |"]
+    for tolerance, taken in zip(TOLERANCES, maps):
+        rows.append(f"| map | {tolerance:g} | {1000 * taken / cells:.1f} | {taken:.2f} | 1/{cells * a_run / taken:.0f} |")
+    return rows
+
+
 def error_of(values, reference):
     return max(abs(v / r - 1) for v, r in zip(values, reference))
 
@@ -128,6 +167,8 @@ def main():
                f"{run / whole:.0f} times as long, the process with its start, and {steps / within:.0f} times without it: "
                f"at equal error it takes more. For its own error a run of {lasting(off):.0f} s would do, which takes "
                f"{(whole_start + lasting(off) / duration * steps) / whole:.0f} and {lasting(off) / duration * steps / within:.0f} times as long.")
+    maps = map_rows(froude)
+    print(os.linesep.join(maps), flush=True)
     page = f"""# What a periodic motion costs
 
 Written by `validation/cost/periodic/prices.py` on {os.cpu_count()} processors of {platform.processor() or platform.machine()} beside other work: [the buoy](../../examples/buoy.toml) in one
@@ -142,6 +183,14 @@ that (of a run: without its first period).
 {os.linesep.join(rows)}
 
 {verdict}
+
+A whole map, {PERIODS} periods × {HEIGHTS} heights, by `froude stability`, and the same cells by the runs of [tongue.toml](../../examples/sweep/tongue.toml) with
+those that tell their error, of which {RUN_PERIODS} × {RUN_HEIGHTS} evenly over the map were run. Processor time of the whole processes, in the same run of
+this program; the memory is that of `memory_tolerance`, of which a finer one has more states.
+
+| by | memory | a cell [ms] | all cells [s] | of runs |
+| --- | --- | --- | --- | --- |
+{os.linesep.join(maps)}
 """
     (folder / "periodic.md").write_text(page)
 

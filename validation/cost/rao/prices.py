@@ -149,6 +149,7 @@ The same row where every module feels the waves of all others (dense equations),
 
 Thirty motions of five modules that feel each other's waves, 200 frequencies, 36 headings, one thread, processor time: {1000 * many:.0f} ms the process, of which reading, preparing and starting take {1000 * one:.0f} ms (one frequency, one heading): {1000 * (many - one):.0f} ms for the
 rest, writing among it. numpy's batched solution of as many equations alone, whose matrices and right-hand sides are at hand: {1000 * peer:.1f} ms.
+What the equations and the rest take of it, as a profile has it: [validation/cost/rao](../../validation/cost/rao/README.md).
 """
     (folder / "rao.md").write_text(page)
 

@@ -1,6 +1,8 @@
 #pragma once
 /// \file  A model in waves of one period as a periodic system of the motions that joints leave. (Q13),
 /// docs/theory/frequency.md.
+#include <optional>
+
 #include "dynamics/frequency/harmonic_balance.hpp"
 #include "dynamics/frequency/small_motions.hpp"
 #include "hydro/base/dense.hpp"
@@ -16,7 +18,8 @@ struct RadiatingModes {
 
 /// Coordinates y, (n), in which rest is 0 and bodies are displaced by N y to first order, N orthonormal in the metric
 /// of their own masses, √kg m; further on joints are closed as they are. All loads by the model itself, at the true
-/// place of every body; derivatives by central differences of its residual, relative error some 1e-9.
+/// place of every body; loads vary by their own derivatives, inertia and joints by central differences, relative error
+/// some 1e-9.
 class PeriodicModel : public PeriodicSystem {
  public:
   /// `model`: of a run without its radiation; added mass at infinite frequency is in it. `about`: rest or an
@@ -48,17 +51,18 @@ class PeriodicModel : public PeriodicSystem {
     Eigen::MatrixXd by_coordinate;  ///< displacement of the centres of gravity by y, (6N, n)
   };
   /// \throws hydro::NumericsError where joints cannot be closed
-  Bodies bodies(const CoordinateMotion& motion) const;
+  Bodies bodies(const CoordinateMotion& motion);
   /// λ of the joints that go with a motion, load of the memory included, (m).
   Eigen::VectorXd multipliers(const Bodies& bodies, const Eigen::VectorXd& load);
 
  private:
   /// Where bodies are, and what their coordinates' rates make of them.
   struct Closed {
-    State state;                   ///< without velocities
-    Eigen::VectorXd displacement;  ///< (6N)
-    Eigen::MatrixXd J, by_y;       ///< velocity by the displacement's rate, (6N, 6N); displacement by y, (6N, n)
-    hydro::dense::Lu square;       ///< of S, (free, free)
+    State state;                             ///< without velocities
+    Eigen::VectorXd displacement;            ///< (6N)
+    Eigen::MatrixXd J, G;                    ///< velocity by the displacement's rate, (6N, 6N); of the joints, (m, 6N)
+    std::optional<hydro::dense::Lu> square;  ///< of S, (free, free)
+    Eigen::MatrixXd by_y, by_coordinate;     ///< displacement, and that of the centres of gravity, by y, (6N, n)
   };
   /// Where bodies were when they were last asked about at one time of the period.
   struct Asked {
@@ -66,6 +70,9 @@ class PeriodicModel : public PeriodicSystem {
     Eigen::VectorXd value;  ///< (n)
     std::unique_ptr<const Closed> place;
   };
+  /// Bodies displaced, whether joints are closed or not, without the derivatives by y; and these.
+  Closed placed(Eigen::VectorXd displacement) const;
+  void find_derivatives(Closed& at) const;
   /// `near`: a displacement to begin with. \throws hydro::NumericsError where joints cannot be closed
   Closed closed(const Eigen::VectorXd& value, Eigen::VectorXd near) const;
   /// The same for a motion, from where it was last at that time: Newton's steps are short. \throws as closed()
@@ -74,7 +81,9 @@ class PeriodicModel : public PeriodicSystem {
   Eigen::VectorXd expanded(const Eigen::VectorXd& free) const;
   Bodies moving(const Closed& at, const CoordinateMotion& motion) const;
   Eigen::VectorXd residual(const Bodies& bodies, const Eigen::VectorXd& load);
-  /// Derivatives by differences to both sides, or to one with an error as their step.
+  /// −(by_displacement ∂F/∂q + by_velocity ∂F/∂v) of all loads, (6N, 6N).
+  Eigen::MatrixXd load_slope(const State& state, double by_displacement, double by_velocity);
+  /// Differences to both sides, or to one with an error as their step.
   PeriodicSample sample(const CoordinateMotion& motion, const Eigen::VectorXd& load, bool central);
 
   const Model& model_;
