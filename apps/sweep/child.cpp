@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <malloc.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
@@ -53,6 +54,7 @@ int settle(int socket, pid_t parent, std::optional<double> memory_bytes) {
   const rlimit none{0, 0};
   ::setrlimit(RLIMIT_CORE, &none);
   if (memory_bytes) {
+    ::malloc_trim(0);  // room that the heap has beforehand is no memory of a case
     const auto most = static_cast<rlim_t>(data_bytes() + *memory_bytes);
     const rlimit data{most, most};
     ::setrlimit(RLIMIT_DATA, &data);
