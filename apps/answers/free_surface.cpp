@@ -67,6 +67,31 @@ Eigen::VectorXcd about_origins(const scene::Scene& scene, const std::vector<int>
   return out;
 }
 
+/// Coefficients are solved at the very frequency of the wave, whatever table the scene has them in: what interpolation
+/// misses near a resonance would be waves and power that are not there.
+scene::Scene at_its_frequency(scene::Scene scene) {
+  constexpr double beside = 1e-3;  // a table has more than one frequency
+  const double omega = scene.field->omega;
+  const auto solve_there = [&](auto& table) {
+    if (!table) return;
+    table->omega = {(1 - beside) * omega, omega, (1 + beside) * omega};
+    table->headings.clear();
+    table->frequency_tolerance.reset();
+  };
+  for (scene::Body& body : scene.bodies) {
+    if (!body.hydrodynamics) continue;
+    solve_there(body.hydrodynamics->cylinders);
+    solve_there(body.hydrodynamics->mesh);
+  }
+  scene.waves.reset();
+  scene.run.reset();
+  if (scene.rao) {
+    scene.rao->omega = {omega};
+    scene.rao->headings = {scene.field->heading};
+  }
+  return scene;
+}
+
 /// Complex values of the grid; NaN where nothing is told.
 ComplexSignal part(const std::string& name, const std::string& meaning, const Eigen::VectorXcd& eta,
                    const std::vector<bool>& known) {
@@ -105,7 +130,7 @@ FreeSurface free_surface(const scene::Scene& scene, const std::shared_ptr<compil
   FieldQuestion question{asked.omega, asked.heading, Eigen::VectorXcd::Zero(6 * static_cast<Index>(bodies.size())),
                          grid_of(asked)};
   if (!asked.held) {
-    const compile::Prepared prepared = compile::prepare(scene, kept);
+    const compile::Prepared prepared = compile::prepare(at_its_frequency(scene), kept);
     out.notes = prepared.notes;
     question.motion = about_origins(
         scene, bodies, motions_in_wave(scene, prepared, asked.omega, asked.heading, asked.place, out.notes));

@@ -24,7 +24,7 @@ class Model {
   Potentials potentials(double K, const Eigen::MatrixXcd& incident) const;
   /// The same in a wave of unit amplitude.
   Potentials in_wave(double omega, double heading) const;
-  /// Waves far away of bodies with these velocities, as in_wave() has their potentials. (G22)
+  /// Waves far away of bodies with these velocities, as in_wave() has their potentials. (P38)
   potential::FarField far_field(const Potentials& phi, double omega, double heading,
                                 const Eigen::VectorXcd& velocity) const;
   /// The greatest distance along the water between panels, with room for their corners, m.
