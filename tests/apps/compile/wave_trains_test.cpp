@@ -134,8 +134,8 @@ TEST(WavesInTurn, AreRefusedWhereDataOrTheSceneDoNotHaveThem) {
   early.insert(early.find("period = \"7 s\""), "from = \"1 s\", fade = \"1 s\", ");
   refuses(early, HasSubstr("has always been there"));
   // A fade of 3 s is as wide as the frequencies themselves; one of 30 s is not.
-  const auto within = [](const std::string& fade) {
-    const auto scene = froude_test::parse(deep + trains("from = \"30 s\", fade = \"" + fade + "\"") + ask_waves);
+  const auto within = [](const std::string& over) {
+    const auto scene = froude_test::parse(deep + trains("from = \"30 s\", fade = \"" + over + "\"") + ask_waves);
     return refused([&] { compile::make_sea(scene, compile::Band{0.5, 2.5}); });
   };
   EXPECT_THAT(within("3 s"),
