@@ -148,18 +148,18 @@ TEST(CylinderLaws, RestoringIsThatOfTheWaterplaneAndTheCentres) {
 // Of two pontoons waves resonate between the eight cylinders; what is not solved is held against what is.
 TEST(CylinderLaws, AtChosenFrequenciesMeetTheToleranceBetweenThem) {
   const std::vector<CylinderBody> bodies{pontoon(-6.5), pontoon(6.5)};
-  const std::vector<double> first{0.3, 1.0, 1.8, 2.5, 3.2}, heading{0, 0.6};
+  const std::vector<double> first{0.3, 1.0, 1.8, 2.5, 3.2}, towards{0, 0.6};
   const Options options{.tolerance = 1e-4, .frequency_tolerance = 1e-2, .threads = 1, .doubled_frequencies = 1};
-  const Solution chosen = solve(bodies, tank(), first, heading, options);
+  const Solution chosen = solve(bodies, tank(), first, towards, options);
   const potential::Coefficients& table = chosen.coefficients;
   EXPECT_LE(chosen.check.unseen, 1e-2);
   EXPECT_LE(chosen.check.solved_omega.size(), 60u);  // cubics between even ones need 200
   EXPECT_GT(table.omega.size(), chosen.check.solved_omega.size());
   EXPECT_THAT(table.notes, testing::Contains(testing::HasSubstr("solved at")));
   std::vector<double> unseen;
-  for (double omega = 0.31; omega < 3.2; omega += 0.0717) unseen.push_back(omega);
+  for (double at = 0.31; at < 3.2; at += 0.0717) unseen.push_back(at);
   const auto truth =
-      solve(bodies, tank(), unseen, heading, {.tolerance = 1e-4, .threads = 1, .doubled_frequencies = 0}).coefficients;
+      solve(bodies, tank(), unseen, towards, {.tolerance = 1e-4, .threads = 1, .doubled_frequencies = 0}).coefficients;
   const potential::FrequencyTable read(table, {bodies[0].reference_point, bodies[1].reference_point});
   Eigen::VectorXd B = Eigen::VectorXd::Zero(12), X = B;
   for (std::size_t w = 0; w < table.omega.size(); ++w) {
@@ -172,8 +172,8 @@ TEST(CylinderLaws, AtChosenFrequenciesMeetTheToleranceBetweenThem) {
     for (Eigen::Index i = 0; i < 12; ++i) {
       for (Eigen::Index j = 0; j < 12; ++j)
         EXPECT_LE(std::hypot(dB(i, j), dA(i, j)), 1e-2 * std::sqrt(B[i] * B[j])) << unseen[w];
-      for (std::size_t h = 0; h < heading.size(); ++h)
-        EXPECT_LE(std::abs(read.excitation(unseen[w], heading[h])[i] - truth.X[h](i, static_cast<Eigen::Index>(w))),
+      for (std::size_t h = 0; h < towards.size(); ++h)
+        EXPECT_LE(std::abs(read.excitation(unseen[w], towards[h])[i] - truth.X[h](i, static_cast<Eigen::Index>(w))),
                   1e-2 * std::max(X[i], 0.01 * X.maxCoeff()))
             << unseen[w];
     }
