@@ -15,32 +15,6 @@ namespace froude {
 
 using namespace dynamics::frequency;
 
-namespace {
-
-/// A system that others hold too, for those who want one of their own.
-class HeldByOthers final : public PeriodicSystem {
- public:
-  explicit HeldByOthers(std::shared_ptr<PeriodicSystem> system) : system_(std::move(system)) {}
-  Eigen::Index size() const override { return system_->size(); }
-  double omega() const override { return system_->omega(); }
-  PeriodicSample at(const CoordinateMotion& motion, const Eigen::VectorXd& load) override {
-    return system_->at(motion, load);
-  }
-  PeriodicSample roughly_at(const CoordinateMotion& motion, const Eigen::VectorXd& load) override {
-    return system_->roughly_at(motion, load);
-  }
-  Eigen::VectorXd residual_at(const CoordinateMotion& motion, const Eigen::VectorXd& load) override {
-    return system_->residual_at(motion, load);
-  }
-  const PeriodicMemory* memory() const override { return system_->memory(); }
-  Eigen::VectorXd memory_velocity(const CoordinateMotion& motion) override { return system_->memory_velocity(motion); }
-
- private:
-  std::shared_ptr<PeriodicSystem> system_;
-};
-
-}  // namespace
-
 PeriodicAnswers::PeriodicAnswers(const scene::Scene& scene, const compile::Prepared& prepared)
     : scene_(scene), prepared_(prepared) {
   options_.accuracy = scene.accuracy / 10;  // of the motion: harmonics above the last go on falling
@@ -52,10 +26,10 @@ std::shared_ptr<PeriodicScene> PeriodicAnswers::at(double period, double height)
   return last_.system;
 }
 Family PeriodicAnswers::by_height(double period) const {
-  return [this, period](double height) { return std::make_unique<HeldByOthers>(at(period, height)); };
+  return [this, period](double height) { return at(period, height); };
 }
 Family PeriodicAnswers::by_period(double height) const {
-  return [this, height](double period) { return std::make_unique<HeldByOthers>(at(period, height)); };
+  return [this, height](double period) { return at(period, height); };
 }
 
 Balance PeriodicAnswers::balance(PeriodicScene& system, PeriodicMotion start) const {

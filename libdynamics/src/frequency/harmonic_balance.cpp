@@ -380,7 +380,7 @@ class Branch {
     MatrixXd matrix;
     VectorXd right;
   };
-  std::unique_ptr<PeriodicSystem> system(double parameter) const { return family_(parameter); }
+  std::shared_ptr<PeriodicSystem> system(double parameter) const { return family_(parameter); }
   BalanceEquations at(const Place& p) const {
     const auto s = system(p.parameter);
     return equations(*s, p.Y, Samples(p.Y.cols() / 2, s->omega()));

@@ -1,8 +1,8 @@
 #include "answers.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <numbers>
+
+#include "hydro/potential/far_field.hpp"
 
 namespace hydro::cylinders {
 namespace {
@@ -13,15 +13,13 @@ using Eigen::MatrixXcd;
 using Eigen::MatrixXd;
 using std::numbers::pi;
 
-// (C13). The integrand is a trigonometric polynomial but for terms beyond k times the extent, so the trapezium rule is
-// exact to rounding.
+// (C13)
 void add_far_field(const Groups& groups, const Question& q, const MatrixXcd& sent_out, OneFrequency& result) {
-  const double h = q.modes.depth, reach = q.modes.k * q.across;
-  const int count = 2 * static_cast<int>(reach + 10 * std::cbrt(reach) + 4 * q.orders + 20);
-  std::vector<double> angle, against;
-  for (int t = 0; t < count; ++t) angle.push_back(2 * pi * t / count);
+  const double h = q.modes.depth;
+  const std::vector<double> angle = potential::angles_around(0, q.modes.k, q.across / 2, q.orders);
   const MatrixXcd f = groups.far_field(sent_out, angle);
-  result.B_far = 4 * q.omega * q.water.density * h / count * (f.adjoint() * f).real();
+  result.B_far = 4 * q.omega * q.water.density * h / static_cast<double>(angle.size()) * (f.adjoint() * f).real();
+  std::vector<double> against;
   for (const double beta : q.heading) against.push_back(beta + pi);
   const Complex factor = Complex(0, 4 * q.water.density * q.water.gravity * h) / q.modes.wave_at_surface();
   result.X_far = factor * groups.far_field(sent_out, against).transpose();

@@ -110,28 +110,8 @@ TEST(RecordedWaves, MoveABodyAsTheSeaThatMadeThem) {
     file << "omega [rad/s],amplitude [m],phase [rad]\n";
     for (const Wave& w : waves) file << fmt::format("{:.17g},{},{}\n", w.omega(), w.a, w.phase);
   }
-  const std::string body = R"([[body]]
-name = "b"
-centre_of_gravity = "(0, 0, -5) m"
-mass = "402.1 t"
-inertia = "(6e6, 6e6, 6e6) kg m^2"
-free = ["surge", "heave", "pitch"]
-[body.hydrodynamics]
-excitation = true
-radiation = { memory_tolerance = 1e-2 }
-hydrostatics = true
-[body.hydrodynamics.cylinders]
-at = "(0, 0, 0) m"
-diameter = "8 m"
-draught = "8 m"
-frequencies = "0.2 rad/s .. 3 rad/s, 29 values"
-[[mooring]]
-on = "b"
-kind = "linear"
-stiffness = { surge = "20 kN/m" }
-[ask]
-run = { duration = "40 s", every = "0.5 s" }
-)";
+  const std::string body = froude_test::floating_cylinder("0.2 rad/s .. 3 rad/s, 29 values") +
+                           "[ask]\nrun = { duration = \"40 s\", every = \"0.5 s\" }\n";
   const auto made = simulate(froude_test::parse(
       scene("[waves]\nkind = \"components\"\nheading = \"0 deg\"\nfile = \"" + list.string() + "\"\n", body)));
   const auto measured = simulate(froude_test::parse(scene(recorded(record()), body)));

@@ -44,25 +44,7 @@ const std::string ask_waves =
     "[[probe]]\nat = \"(0, 0, 0) m\"\n[ask]\nwaves = { duration = \"90 s\", every = \"0.5 s\" }\n";
 
 std::string body(const std::string& frequencies) {
-  return R"([[body]]
-name = "b"
-centre_of_gravity = "(0, 0, -5) m"
-mass = "402.1 t"
-inertia = "(6e6, 6e6, 6e6) kg m^2"
-free = ["surge", "heave", "pitch"]
-[body.hydrodynamics]
-excitation = true
-radiation = { memory_tolerance = 1e-2 }
-hydrostatics = true
-[body.hydrodynamics.cylinders]
-at = "(0, 0, 0) m"
-diameter = "8 m"
-draught = "8 m"
-frequencies = ")" +
-         frequencies +
-         "\"\n[[mooring]]\non = \"b\"\nkind = \"linear\"\nstiffness = { surge = \"20 kN/m\" }\n[ask]\nrun = { duration "
-         "= \"90 "
-         "s\", every = \"0.5 s\" }\n";
+  return froude_test::floating_cylinder(frequencies) + "[ask]\nrun = { duration = \"90 s\", every = \"0.5 s\" }\n";
 }
 
 // Two trains of 0.2 and 0.15 m, of each of which two tenths of the accuracy, 1e-2, are left out at most.

@@ -40,38 +40,41 @@ Description sphere_on_a_rod(Wet wet, double current) {
   return d;
 }
 
+/// Of the second node in a stream: slopes by its place, velocity and acceleration, to `rounding`, and that what loads
+/// do to it is what they are told to do.
+void expect_slopes_and_powers(const Line& line, double height, double rounding) {
+  Loads loads(line);
+  Places x(3, 2), v(3, 2), a(3, 2);
+  x << 0, 0.1, 0, 0.2, -2, height;
+  v << 0, 0.7, 0, -0.2, 0, 0.5;
+  a << 0, 0.3, 0, 0.9, 0, -1.1;
+  const By by{.x = 0.6, .v = 1.7, .a = 2.9};
+  const auto force = [&](double c, int axis) {
+    Places at_x = x, at_v = v, at_a = a, out = Places::Zero(3, 2);
+    at_x(axis, 1) += by.x * c;
+    at_v(axis, 1) += by.v * c;
+    at_a(axis, 1) += by.a * c;
+    loads.add({0, at_x, at_v, at_a}, {0, 0, 0}, out, nullptr);
+    return Vector3d(out.col(1));
+  };
+  Blocks blocks;
+  blocks.set_zero(2, 1);
+  Places sink = Places::Zero(3, 2);
+  loads.add({0, x, v, a}, by, sink, &blocks);
+  constexpr double e = 1e-6;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Vector3d slope = (force(e, axis) - force(-e, axis)) / (2 * e);
+    EXPECT_LT((slope - blocks.diagonal[1].col(axis)).norm(), rounding) << height << ' ' << axis;
+  }
+  const LoadPowers p = loads.powers({0, x, v, a});
+  EXPECT_NEAR((force(0, 0) - line.constant_load().col(1)).dot(v.col(1)),
+              p.drag_supplied - p.drag_dissipated + p.inertia_supplied + p.buoyancy_supplied, 1e-10);
+}
+
 TEST(Sphere, HasTheDerivativesOfItsLoads) {
   for (const Wet wet : {Wet::all, Wet::below_surface})
-    for (const double height : {-1.0, -0.1, 0.25, 0.9}) {
-      const Line line(sphere_on_a_rod(wet, 0.4));
-      Loads loads(line);
-      Places x(3, 2), v(3, 2), a(3, 2);
-      x << 0, 0.1, 0, 0.2, -2, height;
-      v << 0, 0.7, 0, -0.2, 0, 0.5;
-      a << 0, 0.3, 0, 0.9, 0, -1.1;
-      const auto force = [&](double c, int axis, const By& by) {
-        Places at_x = x, at_v = v, at_a = a, out = Places::Zero(3, 2);
-        at_x(axis, 1) += by.x * c;
-        at_v(axis, 1) += by.v * c;
-        at_a(axis, 1) += by.a * c;
-        loads.add({0, at_x, at_v, at_a}, {0, 0, 0}, out, nullptr);
-        return Vector3d(out.col(1));
-      };
-      const By by{.x = 0.6, .v = 1.7, .a = 2.9};
-      Blocks blocks;
-      blocks.set_zero(2, 1);
-      Places sink = Places::Zero(3, 2);
-      loads.add({0, x, v, a}, by, sink, &blocks);
-      constexpr double e = 1e-6;
-      for (int axis = 0; axis < 3; ++axis) {
-        const Vector3d slope = (force(e, axis, by) - force(-e, axis, by)) / (2 * e);
-        EXPECT_LT((slope - blocks.diagonal[1].col(axis)).norm(), 1e-5) << height;  // rounding of 1000 N over 2e-6
-      }
-      const LoadPowers p = loads.powers({0, x, v, a});
-      const double constant = line.constant_load().col(1).dot(v.col(1));
-      EXPECT_NEAR(force(0, 0, by).dot(v.col(1)) - constant,
-                  p.drag_supplied - p.drag_dissipated + p.inertia_supplied + p.buoyancy_supplied, 1e-10);
-    }
+    for (const double height : {-1.0, -0.1, 0.25, 0.9})
+      expect_slopes_and_powers(Line(sphere_on_a_rod(wet, 0.4)), height, 1e-5);  // rounding of 1000 N over 2e-6
 }
 
 /// A node in a wave, where velocities and accelerations are of all sides.
@@ -122,33 +125,8 @@ TEST(BobCylinder, HasTheDerivativesOfItsLoads) {
     Description d = sphere_on_a_rod(Wet::all, 0.4);
     d.nodes[1].bob = {.diameter = 0.2, .cd = 1.4, .ca = 0.8, .length = 1.5, .by_component = by_component};
     const Line line(d);
-    Loads loads(line);
-    Places x(3, 2), v(3, 2), a(3, 2);
-    x << 0, 0.1, 0, 0.2, -2, -1;
-    v << 0, 0.7, 0, -0.2, 0, 0.5;
-    a << 0, 0.3, 0, 0.9, 0, -1.1;
-    const By by{.x = 0.6, .v = 1.7, .a = 2.9};
-    Blocks blocks;
-    blocks.set_zero(2, 1);
-    Places sink = Places::Zero(3, 2);
-    loads.add({0, x, v, a}, by, sink, &blocks);
-    constexpr double e = 1e-6;
-    for (int axis = 0; axis < 3; ++axis) {
-      const auto force = [&](double c) {
-        Places at_v = v, at_a = a, out = Places::Zero(3, 2);
-        at_v(axis, 1) += by.v * c;
-        at_a(axis, 1) += by.a * c;
-        loads.add({0, x, at_v, at_a}, {0, 0, 0}, out, nullptr);
-        return Vector3d(out.col(1));
-      };
-      const Vector3d slope = (force(e) - force(-e)) / (2 * e);
-      EXPECT_LT((slope - blocks.diagonal[1].col(axis)).norm(), 1e-4) << axis;  // rounding of 1000 N over 2e-6
-    }
-    const LoadPowers p = loads.powers({0, x, v, a});
-    Places all = Places::Zero(3, 2);
-    loads.add({0, x, v, a}, {0, 0, 0}, all, nullptr);
-    EXPECT_NEAR((all.col(1) - line.constant_load().col(1)).dot(v.col(1)),
-                p.drag_supplied - p.drag_dissipated + p.inertia_supplied, 1e-10);
+    expect_slopes_and_powers(line, -1, 1e-4);  // rounding of 1000 N over 2e-6
+    EXPECT_EQ(Loads(line).powers({0, Places::Zero(3, 2), Places::Ones(3, 2), Places::Zero(3, 2)}).buoyancy_supplied, 0);
   }
 }
 

@@ -94,7 +94,7 @@ PeriodicMotion at_rest(const PeriodicSystem& system, Eigen::Index harmonics = 4)
 PeriodicMotion load_of_memory(PeriodicSystem& system, const PeriodicMotion& motion);
 
 /// Systems along a parameter, such as the height of waves or their period.
-using Family = std::function<std::unique_ptr<PeriodicSystem>(double parameter)>;
+using Family = std::function<std::shared_ptr<PeriodicSystem>(double parameter)>;
 
 /// A motion of one of them.
 struct MotionAt {

@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 #include "hydro/base/dense.hpp"
 #include "hydro/base/error.hpp"
@@ -35,14 +36,12 @@ struct LoadSizes {
   MatrixXd A_inf;
 };
 
-Coefficients turned_ways(Coefficients c, double sign) {
-  std::vector<Eigen::Vector3d> place;
-  for (const BodyData& body : c.body) place.push_back(body.reference_point.value_or(Eigen::Vector3d::Zero()));
-  c.X = turned_by_way(c, place, sign);
-  return c;
+std::vector<Eigen::Vector3d> places_of(const Coefficients& c) {
+  std::vector<Eigen::Vector3d> out;
+  for (const BodyData& body : c.body) out.push_back(body.reference_point.value_or(Eigen::Vector3d::Zero()));
+  return out;
 }
-Coefficients without_way(const Coefficients& c) { return turned_ways(c, -1); }
-Coefficients with_way(const Coefficients& c) { return turned_ways(c, 1); }
+std::vector<MatrixXcd> without_way(const Coefficients& c) { return turned_by_way(c, places_of(c), -1); }
 
 VectorXd one_where_nothing(const VectorXd& size) { return (size.array() > 0).select(size, 1); }
 
@@ -54,8 +53,8 @@ LoadSizes load_sizes(const Coefficients& c) {
 
 /// One row a frequency: the upper triangle of B + iω(A − A(∞)), and X without the phase of the waves' way to each
 /// body, all relative.
-MatrixXcd relative_loads(const Coefficients& given, const LoadSizes& size) {
-  const Coefficients c = without_way(given);
+MatrixXcd relative_loads(const Coefficients& c, const LoadSizes& size) {
+  const std::vector<MatrixXcd> X_alone = without_way(c);
   const Index n = c.modes();
   MatrixXcd out(static_cast<Index>(c.omega.size()), n * (n + 1) / 2 + n * static_cast<Index>(c.X.size()));
   for (std::size_t w = 0; w < c.omega.size(); ++w) {
@@ -67,7 +66,7 @@ MatrixXcd relative_loads(const Coefficients& given, const LoadSizes& size) {
         out(row, at++) =
             Complex(both(c.B[w]), c.omega[w] * (both(c.A[w]) - both(size.A_inf))) / (size.B[i] * size.B[j]);
       }
-    for (const MatrixXcd& X : c.X) {
+    for (const MatrixXcd& X : X_alone) {
       out.row(row).segment(at, n) = X.col(row).cwiseQuotient(size.X.cast<Complex>()).transpose();
       at += n;
     }
@@ -189,7 +188,7 @@ ChosenFrequencies choose_frequencies(const std::vector<double>& first, double to
           std::max(missed, largest_entry(there.row(static_cast<Index>(i)) - now.known.shares(looked_at[i]) * loads));
     before = solved.omega;
     then = now.known;
-    solved = merged(std::array{solved, seen});
+    solved = merged(std::array{std::move(solved), seen});
   }
 }
 
@@ -256,42 +255,40 @@ MatrixXcd radiation_between(const Coefficients& solved, const Eigen::RowVectorXc
 
 }  // namespace
 
-Coefficients with_frequencies_between(const Coefficients& given, double tolerance) {
-  const LoadSizes size = load_sizes(given);
-  const MatrixXcd loads = relative_loads(given, size);
-  const TwoOrders two(given.omega, loads, tolerance);
-  const RationalInterpolation& known = two.known;
-  const double doubt = most_doubtful(given.omega, [&](double omega) { return two.apart(omega, loads); }).front().doubt;
+Coefficients with_frequencies_between(const Coefficients& solved, double tolerance) {
+  const MatrixXcd loads = relative_loads(solved, load_sizes(solved));
+  const TwoOrders two(solved.omega, loads, tolerance);
+  const double doubt = most_doubtful(solved.omega, [&](double omega) { return two.apart(omega, loads); }).front().doubt;
   require(doubt <= tolerance,
           "between the {} frequencies interpolation is certain to {:.2g} only; {:.2g} is asked for: take a larger "
           "frequency_tolerance, or coefficients of less error",
-          given.omega.size(), doubt, tolerance);
-  const Coefficients solved = without_way(given);
+          solved.omega.size(), doubt, tolerance);
+  const std::vector<MatrixXcd> X_alone = without_way(solved);
+  const VectorXd B_size = mode_sizes(solved.B);
   Coefficients out = solved;
-  out.omega = fine_table(solved.omega, known, loads, tolerance);
+  out.omega = fine_table(solved.omega, two.known, loads, tolerance);
   const auto count = static_cast<Index>(out.omega.size());
   out.A.clear();
   out.B.clear();
   for (MatrixXcd& X : out.X) X.resize(out.modes(), count);
-  const VectorXd B_size = mode_sizes(given.B);
   for (Index w = 0; w < count; ++w) {
     const double omega = out.omega[static_cast<std::size_t>(w)];
     const auto same = std::find(solved.omega.begin(), solved.omega.end(), omega);
-    Eigen::RowVectorXcd shares = Eigen::RowVectorXcd::Zero(static_cast<Index>(solved.omega.size()));
-    if (same != solved.omega.end()) {
-      const auto k = same - solved.omega.begin();
-      shares[k] = 1;
-      out.A.push_back(solved.A[static_cast<std::size_t>(k)]);
-      out.B.push_back(solved.B[static_cast<std::size_t>(k)]);
-    } else {
-      shares = known.shares(omega);
+    const Eigen::RowVectorXcd shares = two.known.shares(omega);
+    for (std::size_t h = 0; h < out.X.size(); ++h) out.X[h].col(w) = X_alone[h] * shares.transpose();
+    if (same == solved.omega.end()) {
       const MatrixXcd K = radiation_between(solved, shares);
       out.A.push_back(*solved.A_inf + K.imag() / omega);
       out.B.push_back(nearest_passive(K.real(), B_size));
+      continue;
     }
-    for (std::size_t h = 0; h < out.X.size(); ++h) out.X[h].col(w) = solved.X[h] * shares.transpose();
+    const auto k = same - solved.omega.begin();
+    out.A.push_back(solved.A[static_cast<std::size_t>(k)]);
+    out.B.push_back(solved.B[static_cast<std::size_t>(k)]);
+    for (std::size_t h = 0; h < out.X.size(); ++h) out.X[h].col(w) = X_alone[h].col(k);
   }
-  return with_way(out);
+  out.X = turned_by_way(out, places_of(out), 1);
+  return out;
 }
 
 // Half wavelengths that fit between the bodies are what resonates; each takes two frequencies, and each further digit a
