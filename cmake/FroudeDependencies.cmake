@@ -6,6 +6,7 @@ find_package(glog 0.6 REQUIRED)  # by which Ceres writes messages
 find_package(fmt REQUIRED)
 find_package(tomlplusplus REQUIRED)
 find_package(HDF5 1.10 REQUIRED COMPONENTS C HL)
+find_package(LAPACK REQUIRED)  # OpenBLAS where it is installed: the reference's own takes ten times as long
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(FFTW3 REQUIRED IMPORTED_TARGET fftw3)
 pkg_check_modules(NETCDF REQUIRED IMPORTED_TARGET netcdf)
