@@ -149,14 +149,14 @@ DeepWave deep_wave_by_quadrature(double X, double Y) {
   return with_slopes(X, Y, std::hypot(X, Y), by_quadrature(X, Y));
 }
 
-DeepWave deep_wave(double X, double Y) { return deep_wave(X, Y, bessel_j(X)); }
+DeepWave deep_wave(double X, double Y) { return deep_wave(X, Y, std::exp(-Y), bessel_j(X)); }
 
-DeepWave deep_wave(double X, double Y, const BesselPair& J) {
+DeepWave deep_wave(double X, double Y, double decay, const BesselPair& J) {
   static const Table table;
   const double rho = std::sqrt(X * X + Y * Y);
   if (rho > far) return with_slopes(X, Y, rho, far_away(X, Y, rho));
   const std::array<double, 2> smooth = table.at(rho, X / (rho + Y));
-  const double L = std::exp(-Y) * std::log(rho + Y);
+  const double L = decay * std::log(rho + Y);
   return with_slopes(X, Y, rho, {smooth[0] - J.order0 * L, smooth[1] - J.order1 * L});
 }
 

@@ -93,6 +93,7 @@ FiniteWave::FiniteWave(double K, double depth, double reach) : K_(K), h_(depth) 
   if (!std::isinf(K)) {
     const double g = 1;
     k_ = waves::wavenumber(std::sqrt(K * g), {.density = 1, .gravity = g, .depth = WaterDepth::from_metres(depth)});
+    strength_ = std::sqrt(wave_scaled());
   }
   constexpr int modes = 24;
   for (int n = 1; n <= modes; ++n) kappa_.push_back(cylinders::evanescent_root(n, K_, h_));
@@ -106,9 +107,8 @@ double FiniteWave::wave_scaled() const {
   return k_ * k_ / ((1 + e) * (1 + e)) / (h_ * difference + K_);
 }
 
-double FiniteWave::wave_strength(double down_P, double down_Q) const {
-  const auto profile = [&](double down) { return std::exp(-k_ * down) * (1 + std::exp(-2 * k_ * (h_ - down))); };
-  return wave_scaled() * profile(down_P) * profile(down_Q);
+double FiniteWave::profile(double down) const {
+  return strength_ * std::exp(-k_ * down) * (1 + std::exp(-2 * k_ * (h_ - down)));
 }
 
 std::vector<BedWave> FiniteWave::near(const std::vector<double>& R, const std::vector<double>& V) const {

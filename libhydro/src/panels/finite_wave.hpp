@@ -22,8 +22,8 @@ class FiniteWave {
   /// From the table: 1e-8/h and 1e-8/h².
   BedWave operator()(double R, double V) const;
   double k() const { return k_; }  ///< wavenumber; 0 if K = ∞
-  /// C₀ of (G8) times cosh k(z+h) cosh k(ζ+h), given −z and −ζ; without overflow.
-  double wave_strength(double down_P, double down_Q) const;
+  /// √C₀ cosh k(z+h), C₀ of (G8), given −z; without overflow.
+  double profile(double down) const;
 
  private:
   std::vector<BedWave> near(const std::vector<double>& R, const std::vector<double>& V) const;
@@ -32,8 +32,8 @@ class FiniteWave {
   void add_column(const std::vector<double>& R, const std::vector<double>& V, const std::vector<BedWave>& at);
   double wave_scaled() const;  ///< C₀ e^{2kh}/4
 
-  double K_, h_, k_ = 0;
-  std::vector<double> kappa_;  ///< of evanescent modes
+  double K_, h_, k_ = 0, strength_ = 0;  // of waves, √C₀ e^{kh}/2
+  std::vector<double> kappa_;            ///< of evanescent modes
   double width_ = 0, height_ = 0;
   int columns_ = 0, rows_ = 0;
   std::vector<Patch<3>> patch_;  // column by column

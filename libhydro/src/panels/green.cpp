@@ -16,21 +16,28 @@ WaveGreen::WaveGreen(double K, const WaterDepth& depth, double reach) : K_(K), h
 
 double WaveGreen::image_sign() const { return std::isinf(K_) ? -1 : 1; }
 
-WavePart WaveGreen::operator()(double R, double z, double zeta) const {
-  return bed_ ? over_bed(R, z, zeta) : deep(R, -z - zeta);
+WaveHeight WaveGreen::height(double z) const {
+  if (std::isinf(K_)) return {z, 0, 0, 0};
+  return {z, std::exp(K_ * z), bed_ ? bed_->profile(-z) : 0, bed_ ? std::tanh(bed_->k() * (z + h_)) : 1};
+}
+
+WavePart WaveGreen::operator()(double R, const WaveHeight& P, const WaveHeight& Q) const {
+  return bed_ ? over_bed(R, P, Q) : deep(R, P, Q);
 }
 
 /// 2K(F − iπe^{−KY}J₀(KR)).
-WavePart WaveGreen::deep(double R, double Y) const {
+WavePart WaveGreen::deep(double R, const WaveHeight& P, const WaveHeight& Q) const {
   const BesselPair J = bessel_j(K_ * R);
-  const DeepWave w = deep_wave(K_ * R, K_ * Y, J);
-  const double e = pi * std::exp(-K_ * Y), twice = 2 * K_;
+  const double decay = P.decay * Q.decay;
+  const DeepWave w = deep_wave(K_ * R, -K_ * (P.z + Q.z), decay, J);
+  const double e = pi * decay, twice = 2 * K_;
   return {.G = {twice * w.F, -twice * e * J.order0},
           .G_R = {twice * K_ * w.F_X, twice * K_ * e * J.order1},
           .G_zeta = {-twice * K_ * w.F_Y, -twice * K_ * e * J.order0}};
 }
 
-WavePart WaveGreen::over_bed(double R, double z, double zeta) const {
+WavePart WaveGreen::over_bed(double R, const WaveHeight& P, const WaveHeight& Q) const {
+  const double z = P.z, zeta = Q.z;
   const bool waves = !std::isinf(K_);
   double G = 0, G_R = 0, G_zeta = 0;
   std::optional<BesselPair> of_deep;  // the same for both images
@@ -44,7 +51,7 @@ WavePart WaveGreen::over_bed(double R, double z, double zeta) const {
     G_zeta += grows * d.d_V;
     if (waves && !d.whole) {
       if (!of_deep) of_deep = bessel_j(K_ * R);
-      const DeepWave w = deep_wave(K_ * R, K_ * Y, *of_deep);
+      const DeepWave w = deep_wave(K_ * R, K_ * Y, second ? std::exp(-K_ * Y) : P.decay * Q.decay, *of_deep);
       G += 2 * K_ * w.F;
       G_R += 2 * K_ * K_ * w.F_X;
       G_zeta -= grows * 2 * K_ * K_ * w.F_Y;
@@ -58,11 +65,10 @@ WavePart WaveGreen::over_bed(double R, double z, double zeta) const {
     G_zeta += grows * over_cube * Y;
   }
   if (!waves) return {G, G_R, G_zeta};
-  const double k = bed_->k(), wave = 2 * pi * bed_->wave_strength(-z, -zeta);
+  const double k = bed_->k(), wave = 2 * pi * P.profile * Q.profile;
   const BesselPair J = bessel_j(k * R);
-  return {.G = {G, -wave * J.order0},
-          .G_R = {G_R, wave * k * J.order1},
-          .G_zeta = {G_zeta, -wave * k * std::tanh(k * (zeta + h_)) * J.order0}};
+  return {
+      .G = {G, -wave * J.order0}, .G_R = {G_R, wave * k * J.order1}, .G_zeta = {G_zeta, -wave * k * Q.rise * J.order0}};
 }
 
 }  // namespace hydro::panels

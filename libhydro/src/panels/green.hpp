@@ -16,13 +16,23 @@ struct WavePart {
   std::complex<double> G_zeta;  ///< to the depth of the source, 1/m²
 };
 
+/// What waves have at one height: many pairs share it.
+struct WaveHeight {
+  double z;        ///< m, <= 0
+  double decay;    ///< e^{Kz}
+  double profile;  ///< of waves over a bed, FiniteWave::profile(); 0 without one
+  double rise;     ///< tanh k(z + h) over a bed
+};
+
 class WaveGreen {
  public:
   /// K = ω²/g: 0 (deep water only), positive, or +∞. `reach`: the greatest R that will be asked for.
   WaveGreen(double K, const WaterDepth& depth, double reach);
 
-  /// P and Q at heights z, zeta <= 0 and R apart along the water; not both at one point of the surface.
-  WavePart operator()(double R, double z, double zeta) const;
+  WaveHeight height(double z) const;
+  /// P and Q at heights P and Q, R apart along the water; not both at one point of the surface.
+  WavePart operator()(double R, const WaveHeight& P, const WaveHeight& Q) const;
+  WavePart operator()(double R, double z, double zeta) const { return (*this)(R, height(z), height(zeta)); }
   /// Of the image in the surface: −1 if K = ∞, otherwise 1.
   double image_sign() const;
   double K() const { return K_; }
@@ -31,8 +41,8 @@ class WaveGreen {
   bool none() const { return !bed_ && (K_ == 0 || image_sign() < 0); }
 
  private:
-  WavePart deep(double R, double Y) const;
-  WavePart over_bed(double R, double z, double zeta) const;
+  WavePart deep(double R, const WaveHeight& P, const WaveHeight& Q) const;
+  WavePart over_bed(double R, const WaveHeight& P, const WaveHeight& Q) const;
 
   double K_, h_;
   std::optional<FiniteWave> bed_;

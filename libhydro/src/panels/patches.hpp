@@ -47,11 +47,17 @@ class Patch {
   std::array<double, C> operator()(double u, double v) const {
     std::array<double, static_cast<std::size_t>(patch_nodes * C)> in_u;
     sum_rows(at_.data(), v, in_u);
+    // Even and odd powers of u apart, which do not wait for each other.
+    static_assert(patch_nodes % 2 == 0);
     std::array<double, C> out;
+    const double u2 = u * u;
     for (std::size_t c = 0; c < C; ++c) {
-      double sum = in_u[(patch_nodes - 1) * C + c];
-      for (std::size_t i = patch_nodes - 1; i-- > 0;) sum = sum * u + in_u[i * C + c];
-      out[c] = sum;
+      double odd = in_u[(patch_nodes - 1) * C + c], even = in_u[(patch_nodes - 2) * C + c];
+      for (std::size_t i = patch_nodes - 2; i >= 2; i -= 2) {
+        odd = odd * u2 + in_u[(i - 1) * C + c];
+        even = even * u2 + in_u[(i - 2) * C + c];
+      }
+      out[c] = even + u * odd;
     }
     return out;
   }

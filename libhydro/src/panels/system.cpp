@@ -66,12 +66,27 @@ std::size_t level_of(const Polygon& q, const Vector3d& P, double K) {
   return std::isfinite(K) && K * q.size > 1 ? std::max<std::size_t>(level, 1) : level;
 }
 
-WaveIntegrals wave_integrals(const WaveGreen& green, const Panel& panel, const Vector3d& P) {
+/// What waves have at the points of a panel's rules, by level.
+using HeightsOfPanel = std::array<std::vector<WaveHeight>, 4>;
+
+HeightsOfPanel heights_of(const WaveGreen& green, const Panel& panel) {
+  HeightsOfPanel out;
+  for (std::size_t level = 0; level < out.size(); ++level)
+    for (const RulePoint& point : panel.rule[level]) out[level].push_back(green.height(point.at.z()));
+  return out;
+}
+
+/// `height(level, i)`: what waves have at point i of a rule.
+template <class Height>
+WaveIntegrals wave_integrals(const WaveGreen& green, const Panel& panel, const Height& height, const Vector3d& P,
+                             const WaveHeight& of_P) {
   WaveIntegrals sum;
   const Vector3d& n = panel.shape.normal;
-  for (const auto& [Q, weight] : panel.rule[level_of(panel.shape, P, green.K())]) {
+  const std::size_t level = level_of(panel.shape, P, green.K());
+  for (std::size_t i = 0; i < panel.rule[level].size(); ++i) {
+    const auto& [Q, weight] = panel.rule[level][i];
     const double dx = Q.x() - P.x(), dy = Q.y() - P.y(), R = std::sqrt(dx * dx + dy * dy);
-    const WavePart w = green(R, P.z(), Q.z());
+    const WavePart w = green(R, of_P, height(level, i));
     sum.source += weight * w.G;
     const double along = R > 0 ? (dx * n.x() + dy * n.y()) / R : 0;
     sum.dipole += weight * (along * w.G_R + n.z() * w.G_zeta);
@@ -101,31 +116,45 @@ void set_rankine(const RankineParts::OfClass& part, const WaveGreen& green, Inde
     e.right.col(static_cast<Index>(c)) = -(part.source + sign * part.image_source).col(e.motion[c]).cast<Complex>();
 }
 
+/// Adds the waves that one panel makes at all points, (rows, images), to column j of the equations of a class.
+void add_waves_of(const Eigen::ArrayXXcd& source, const Eigen::ArrayXXcd& dipole, const Signs& signs, double K, Index j,
+                  Equations& e) {
+  const Eigen::Map<const Eigen::ArrayXd> sign(signs.data(), static_cast<Index>(signs.size()));
+  const Eigen::VectorXcd of_source = source.matrix() * sign.matrix().cast<Complex>();
+  if (j >= e.velocity.rows()) {  // on the lid
+    e.matrix.col(j) -= K * of_source;
+    return;
+  }
+  e.matrix.col(j) -= dipole.matrix() * sign.matrix().cast<Complex>();
+  for (Index m = 0; m < e.velocity.cols(); ++m)
+    if (e.velocity(j, m) != 0) e.right.col(m) -= e.velocity(j, m) * of_source;
+}
+
 /// Adds the waves of every pair to the equations of all classes.
 void add_waves(const PanelMesh& mesh, const WaveGreen& green, const std::vector<Signs>& classes,
                std::vector<Equations>& all) {
   const std::vector<Vector3d> points = centres(mesh);
-  const auto hull = static_cast<Index>(mesh.hull.size());
-  std::vector<WaveIntegrals> of_image(mesh.images.size());
-  for (std::size_t i = 0; i < points.size(); ++i)
-    for (std::size_t j = 0; j < points.size(); ++j) {
-      const bool on_hull = j < mesh.hull.size();
-      const Panel& panel = on_hull ? mesh.hull[j] : mesh.lid[j - mesh.hull.size()];
-      for (std::size_t s = 0; s < mesh.images.size(); ++s)
-        of_image[s] = wave_integrals(green, panel, mesh.images[s] * points[i]);
-      const auto row = static_cast<Index>(i), column = static_cast<Index>(j);
-      for (std::size_t c = 0; c < classes.size(); ++c) {
-        WaveIntegrals sum;
-        for (std::size_t s = 0; s < mesh.images.size(); ++s) {
-          sum.source += classes[c][s] * of_image[s].source;
-          sum.dipole += classes[c][s] * of_image[s].dipole;
-        }
-        Equations& e = all[c];
-        e.matrix(row, column) -= on_hull ? sum.dipole : green.K() * sum.source;
-        for (Index m = 0; on_hull && column < hull && m < e.velocity.cols(); ++m)
-          e.right(row, m) -= sum.source * e.velocity(column, m);
+  const auto rows = static_cast<Index>(points.size()), images = static_cast<Index>(mesh.images.size());
+  std::vector<WaveHeight> of_points;
+  for (const Vector3d& P : points) of_points.push_back(green.height(P.z()));
+  Eigen::ArrayXXcd source(rows, images), dipole(rows, images);
+  const auto panels_of_hull = static_cast<Index>(mesh.hull.size());
+  for (Index j = 0; j < rows; ++j) {
+    const Panel& panel = j < panels_of_hull ? mesh.hull[static_cast<std::size_t>(j)]
+                                            : mesh.lid[static_cast<std::size_t>(j - panels_of_hull)];
+    const auto height = [of_panel = heights_of(green, panel)](std::size_t level, std::size_t i) {
+      return of_panel[level][i];
+    };
+    for (Index s = 0; s < images; ++s)
+      for (Index i = 0; i < rows; ++i) {
+        const auto at = static_cast<std::size_t>(i);
+        const Vector3d P = mesh.images[static_cast<std::size_t>(s)] * points[at];
+        const WaveIntegrals w = wave_integrals(green, panel, height, P, of_points[at]);
+        source(i, s) = w.source;
+        dipole(i, s) = w.dipole;
       }
-    }
+    for (std::size_t c = 0; c < classes.size(); ++c) add_waves_of(source, dipole, classes[c], green.K(), j, all[c]);
+  }
 }
 
 /// \throws NumericsError if the matrix is singular to working precision
@@ -159,6 +188,12 @@ Rankine rankine_far_or_near(const Polygon& q, const Vector3d& P) {
   return {q.area / r, q.area * q.normal.dot(way) / (r * r * r)};
 }
 
+WaveIntegrals waves_of(const WaveGreen& green, const Panel& panel, const Vector3d& P) {
+  if (green.none()) return {};
+  const auto height = [&](std::size_t level, std::size_t i) { return green.height(panel.rule[level][i].at.z()); };
+  return wave_integrals(green, panel, height, P, green.height(P.z()));
+}
+
 }  // namespace
 
 Influence influence(const WaveGreen& green, const WaterDepth& depth, const Panel& panel, const Vector3d& P) {
@@ -166,7 +201,7 @@ Influence influence(const WaveGreen& green, const WaterDepth& depth, const Panel
                 image = rankine_far_or_near(panel.shape, mirrored_in_surface(P)),
                 bed = depth.is_infinite() ? Rankine{}
                                           : rankine_far_or_near(panel.shape, mirrored_in_bed(P, depth.metres()));
-  const WaveIntegrals wave = green.none() ? WaveIntegrals{} : wave_integrals(green, panel, P);
+  const WaveIntegrals wave = waves_of(green, panel, P);
   const double sign = green.image_sign();
   return {direct.source + sign * image.source + bed.source + wave.source,
           direct.dipole + sign * image.dipole + bed.dipole + wave.dipole};
@@ -217,8 +252,8 @@ RankineParts rankine_parts(const PanelMesh& mesh, const AllPanels& all, const Wa
     out.of_class.push_back({none, none, {}, {}, MatrixXd::Zero(rows, rows - hull)});
     sources.push_back({none, none});
   }
-  for (Index i = 0; i < rows; ++i)
-    for (Index j = 0; j < rows; ++j)
+  for (Index j = 0; j < rows; ++j)
+    for (Index i = 0; i < rows; ++i)
       for (std::size_t s = 0; s < mesh.images.size(); ++s) {
         const Vector3d P = mesh.images[s] * points[static_cast<std::size_t>(i)];
         const bool on_hull = j < hull;

@@ -10,8 +10,9 @@ namespace {
 using std::numbers::pi;
 
 constexpr double table_end = 16;
-constexpr int per_unit = 2;  // intervals of a half: Taylor's terms fall as 0.25^n/n!
-constexpr int terms = 11;    // 0.25^11/11! = 6e-15
+constexpr int per_unit = 4;  // intervals of a quarter: Taylor's terms fall as 0.125^n/n!
+constexpr int terms = 9;     // 0.125^9/9! = 2e-14
+static_assert(terms % 2 == 1);
 
 /// Taylor's series of J₀ and J₁ about the middles of intervals.
 struct BesselTable {
@@ -63,9 +64,14 @@ BesselPair bessel_j(double x) {
   const auto i = static_cast<std::size_t>(x * per_unit);
   const auto& s = table.series[i];
   const double t = x - (static_cast<double>(i) + 0.5) / per_unit;
-  BesselPair sum = s[terms - 1];
-  for (std::size_t n = terms - 1; n-- > 0;) sum = {sum.order0 * t + s[n].order0, sum.order1 * t + s[n].order1};
-  return sum;
+  // Even and odd powers apart, which do not wait for each other: a fifth of a panel method's time was spent here.
+  const double t2 = t * t;
+  BesselPair even = s[terms - 1], odd = s[terms - 2];
+  for (std::size_t n = terms - 1; n >= 2; n -= 2) {
+    even = {even.order0 * t2 + s[n - 2].order0, even.order1 * t2 + s[n - 2].order1};
+    if (n >= 4) odd = {odd.order0 * t2 + s[n - 3].order0, odd.order1 * t2 + s[n - 3].order1};
+  }
+  return {even.order0 + t * odd.order0, even.order1 + t * odd.order1};
 }
 
 BesselPair bessel_y_far(double x) { return far_pair(x, true); }
