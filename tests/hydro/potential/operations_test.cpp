@@ -169,5 +169,19 @@ TEST(FrequencyTable, TellsItsErrorOfInterpolation) {
   EXPECT_NEAR(coarse.interpolation_error().added_mass, 0.5 / (3 - 3.3 + 2 * 3.3 * 3.3), 1e-6);
 }
 
+// What symmetry leaves of yaw is rounding, which no interpolation foresees.
+TEST(FrequencyTable, TellsNoErrorOfWhatIsZeroBySymmetry) {
+  auto c = parabolas({0.3, 0.31, 0.32, 0.33}, Vector3d::Zero());
+  for (std::size_t i = 0; i < c.A.size(); ++i) {
+    c.A[i].row(5).setZero();
+    c.A[i].col(5).setZero();
+  }
+  const double known = FrequencyTable(c, {Vector3d::Zero()}).interpolation_error().added_mass;
+  for (std::size_t i = 0; i < c.A.size(); ++i) c.A[i](5, 5) = (i % 2 == 0 ? 1e-9 : -1e-9) * c.A[i](4, 4);
+  EXPECT_EQ(FrequencyTable(c, {Vector3d::Zero()}).interpolation_error().added_mass, known);
+  for (std::size_t i = 0; i < c.A.size(); ++i) c.A[i](5, 5) = (i % 2 == 0 ? 1e-3 : -1e-3) * c.A[i](4, 4);
+  EXPECT_GT(FrequencyTable(c, {Vector3d::Zero()}).interpolation_error().added_mass, 0.1);
+}
+
 }  // namespace
 }  // namespace operations_test

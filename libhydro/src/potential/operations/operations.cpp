@@ -158,6 +158,22 @@ Eigen::VectorXcd FrequencyTable::excitation(double omega, double heading) const 
   return X;
 }
 
+namespace {
+
+/// True where a mode has a part, of all that have its unit: what is a millionth of the largest is rounding of solvers
+/// and of files with seven digits, where symmetry leaves nothing.
+std::vector<bool> modes_with_a_part(const Eigen::VectorXd& size) {
+  constexpr double rounding = 1e-6;
+  std::array<double, 2> largest{};  // of forces and of moments
+  const auto unit = [](Eigen::Index r) { return static_cast<std::size_t>(r % 6 / 3); };
+  for (Eigen::Index r = 0; r < size.size(); ++r) largest[unit(r)] = std::max(largest[unit(r)], size[r]);
+  std::vector<bool> out;
+  for (Eigen::Index r = 0; r < size.size(); ++r) out.push_back(size[r] > rounding * largest[unit(r)]);
+  return out;
+}
+
+}  // namespace
+
 /// `gap(i, value)` is a matrix of differences near frequency i, for i = 0 … Nω − 1, or an empty one.
 template <class Gap>
 FrequencyTable::InterpolationError FrequencyTable::largest(Gap gap) const {
@@ -166,10 +182,12 @@ FrequencyTable::InterpolationError FrequencyTable::largest(Gap gap) const {
     Eigen::VectorXd size = value(0).cwiseAbs().rowwise().maxCoeff();
     for (std::size_t i = 1; i < c_.omega.size(); ++i)
       size = size.cwiseMax(Eigen::VectorXd(value(i).cwiseAbs().rowwise().maxCoeff()));
+    const std::vector<bool> has_part = modes_with_a_part(size);
     for (std::size_t i = 0; i < c_.omega.size(); ++i) {
       const Eigen::MatrixXd difference = gap(i, value);
       for (Eigen::Index r = 0; r < difference.rows(); ++r)
-        if (size[r] > 0) largest_gap = std::max(largest_gap, difference.row(r).maxCoeff() / size[r]);
+        if (has_part[static_cast<std::size_t>(r)])
+          largest_gap = std::max(largest_gap, difference.row(r).maxCoeff() / size[r]);
     }
     return largest_gap;
   };

@@ -43,13 +43,15 @@ class FrequencyTable {
   Eigen::VectorXcd excitation(double omega,
                               double heading) const;  ///< also \throws if heading is outside the table or there is none
   /// Largest difference between cubic and straight interpolation of A, B, X half way between the frequencies, relative
-  /// to the largest entry of the same mode: the error of interpolation.
+  /// to the largest entry of the same mode: the error of interpolation. Modes below a millionth of the largest force
+  /// or moment have rounding alone and are left out.
   struct InterpolationError {
     double added_mass, damping, excitation;
   };
   InterpolationError interpolation_error() const;
   /// What interpolation misses at the frequencies of the table but its ends, each left out in turn, relative to the
-  /// largest entry of the same mode: the error with twice the spacing (P32). Zero for fewer than three frequencies.
+  /// largest entry of the same mode, of the same modes: the error with twice the spacing (P32). Zero for fewer than
+  /// three frequencies.
   InterpolationError error_with_twice_the_spacing() const;
 
  private:
