@@ -130,7 +130,7 @@ ComplexLu::ComplexLu(const MatrixXcd& A)
         ensure(A.rows() == A.cols(), "a matrix with factors is square");
         auto made = std::make_unique<Factors>(A, std::vector<int>(static_cast<std::size_t>(A.rows())));
         if (A.size() == 0) return made;
-        made->norm = A.cwiseAbs().colwise().sum().maxCoeff();
+        made->norm = A.cwiseAbs2().cwiseSqrt().colwise().sum().maxCoeff();
         const OneBlasThread one;
         const int n = as_int(A.rows());
         int info = 0;  // a zero pivot is no error here: solutions are not finite then, and rcond is zero
