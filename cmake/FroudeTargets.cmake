@@ -109,7 +109,7 @@ endfunction()
 # froude_test(NAME SOURCES… LIBRARIES…): one GoogleTest program; each TEST becomes a CTest entry named NAME.Suite.Test. The
 # files are compiled together, so each has a namespace of its own, named after it. With sanitizers a program takes longer to
 # begin than most tests take, so there the entries are NAME.1 to NAME.4, each a quarter of the program's tests in one process,
-# with the label of their half (tests/CMakeLists.txt).
+# with the label of their part (tests/CMakeLists.txt).
 function(froude_test name)
   cmake_parse_arguments(T "" "" "SOURCES;LIBRARIES" ${ARGN})
   add_executable(test_${name} ${T_SOURCES})
@@ -117,7 +117,7 @@ function(froude_test name)
   froude_precompile(test_${name} froude_test_headers)
   froude_merge(test_${name})
   target_include_directories(test_${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
-  add_dependencies(tests_of_${froude_half} test_${name})
+  add_dependencies(tests_of_${froude_part} test_${name})
   if(NOT FROUDE_SANITIZE)
     gtest_discover_tests(test_${name} TEST_PREFIX ${name}. DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300)
     return()
@@ -125,7 +125,7 @@ function(froude_test name)
   foreach(quarter RANGE 1 4)
     math(EXPR index "${quarter} - 1")
     add_test(NAME ${name}.${quarter} COMMAND test_${name} --gtest_brief=1)
-    set_tests_properties(${name}.${quarter} PROPERTIES TIMEOUT 900 COST 50 LABELS ${froude_half}
+    set_tests_properties(${name}.${quarter} PROPERTIES TIMEOUT 900 COST 50 LABELS ${froude_part}
       ENVIRONMENT "GTEST_TOTAL_SHARDS=4;GTEST_SHARD_INDEX=${index}")
   endforeach()
 endfunction()

@@ -122,7 +122,7 @@ def of_this_commit(files, source, parts):
     commit = git(source, "rev-parse", "HEAD")
     if not commit:
         return files
-    late = git(source, "log", "-25", "--name-only", "--format=") if git(
+    late = git(source, "log", "-12", "--name-only", "--format=") if git(
         source, "rev-parse", "--is-shallow-repository") == "false" else ""
     touched = {*late.splitlines(), *git(source, "diff", "--name-only", "HEAD").splitlines()}
 
