@@ -138,10 +138,12 @@ class FitKindOf : public FitKind {
     const Solution found = placed(asked_at(scene), [&] { return solve(given); });
     FitAnswer out{.report = found.report, .panels = panels(given, found), .table = {}, .remedy = {}};
     for (std::string& line : told_lines(scene)) out.report.remarks.push_back(std::move(line));
-    if (out.report.refused)
+    if (out.report.refused) {
       out.remedy = remedy(scene, given, found);
-    else
+    } else {
       out.table = table(given, found);
+      draw_upon(scene.overlays, out.panels);
+    }
     return out;
   }
 

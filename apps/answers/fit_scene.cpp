@@ -231,6 +231,16 @@ const Table& fit_model() {
   return table;
 }
 
+const Binding<FitScene>& fit_picture() {
+  static const auto table =
+      Binding<FitScene>("[picture]", "what is drawn upon the picture of the fit")
+          .tables("upon",
+                  panel_overlay_binding("[[picture.upon]]",
+                                        "a table drawn upon one of its panels: another campaign, published points"),
+                  &FitScene::overlays);
+  return table;
+}
+
 /// The columns and their roles, but the force, of which there may be several. \throws hydro::InputError for a role that
 /// the kind does not know, or needs and has not
 void read_channels(const Record& channels, FitScene& scene) {
@@ -333,7 +343,7 @@ const Table& fit_schema() {
       .keys = {integer("schema", "version of this grammar, 1"), text("title", "for people").optional(),
                inner_table("data", fit_data()), inner_table("camera", camera_binding().table()).optional(),
                inner_table("prepare", prepare_binding().table()).optional(), inner_table("model", fit_model()),
-               inner_table("ask", fit_ask())}};
+               inner_table("ask", fit_ask()), inner_table("picture", fit_picture().table()).optional()}};
   return table;
 }
 
@@ -373,6 +383,8 @@ FitScene parse_fit(std::string_view text, const fs::path& file, const std::vecto
   scene.settings = scene.of->read(tables, scene);
   scene.force = read_force(tables.data(), scene);
   check_lines(tables, scene);
+  if (root.has("picture")) fit_picture().read_into(root.table("picture"), scene);
+  for (const Overlay& over : scene.overlays) check_overlay(over);
   return scene;
 }
 

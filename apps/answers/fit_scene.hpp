@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "answers/overlay.hpp"
 #include "scene/override.hpp"
 #include "scene/scene.hpp"
 #include "scene/schema.hpp"
@@ -37,6 +38,8 @@ struct FitScene {
     Place place;
   };
   std::vector<Line> lines;  ///< channels that stand in the files as readings
+
+  std::vector<Overlay> overlays;  ///< tables upon its picture
 
   const FitKind* of = nullptr;  ///< its kind, which lives as long as the program
   std::any settings;            ///< what the tables say of that kind

@@ -158,7 +158,20 @@ class TowingFits final : public FitKindOf<TowingModel, ::fit::towing::Problem> {
       points.x.push_back(problem.runs[i].speed);
       points.y.push_back(fit.points[i].cd);
     }
-    return {over_speed({points}, *fit.cd.value, fit.cd.interval, fit.confidence)};
+    Panels out{over_speed({points}, *fit.cd.value, fit.cd.interval, fit.confidence)};
+    std::vector<std::optional<double>> re;
+    for (const auto& point : fit.points) re.push_back(point.re);
+    add_over_reynolds(points, re, out);
+    return out;
+  }
+
+  /// The same runs over their Reynolds number, as other experiments are told, where the viscosity is known.
+  static void add_over_reynolds(plot::Series runs, const std::vector<std::optional<double>>& re, Panels& out) {
+    if (std::any_of(re.begin(), re.end(), [](const auto& known) { return !known; })) return;
+    for (std::size_t i = 0; i < re.size(); ++i) runs.x[i] = *re[i];
+    out.push_back({.x = {.label = "Re", .unit = {}, .scale = plot::Scale::logarithmic},
+                   .y = {"C_D"},
+                   .series = {std::move(runs)}});
   }
 
   /// C_D of runs with that of all together.
@@ -242,10 +255,14 @@ class TowingFits final : public FitKindOf<TowingModel, ::fit::towing::Problem> {
     if (solution.records.size() == 1) return out;
     out.push_back(boxes(solution.records));
     auto runs = with_bars("runs", problem.options.confidence, speeds, cds);
+    const plot::Series points = runs.front();
+    std::vector<std::optional<double>> re;
+    for (const auto& r : solution.records) re.push_back(r.re);
     if (const auto& law = solution.law)
       out.push_back(over_speed(std::move(runs), law->coefficients[0], law->intervals[0], problem.options.confidence));
     else
       out.push_back({.x = {"speed", "m/s"}, .y = {"C_D"}, .series = std::move(runs)});
+    add_over_reynolds(points, re, out);
     return out;
   }
 

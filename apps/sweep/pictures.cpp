@@ -12,7 +12,6 @@
 #include "hydro/base/error.hpp"
 #include "hydro/io/atomic_file.hpp"
 #include "sweep/csv_fields.hpp"
-#include "sweep/overlay.hpp"
 #include "sweep/table.hpp"
 
 namespace froude::sweep {
@@ -165,11 +164,19 @@ plot::Axis axis_of(const Column& column, const std::string& suffix = "") {
 
 std::string title_of(const Study& study) { return study.title.empty() ? study.file.stem().string() : study.title; }
 
+std::vector<plot::Series> overlays_of(const Picture& picture, const std::string& x_unit, const std::string& y_unit) {
+  std::vector<plot::Series> out;
+  for (const Overlay& over : picture.overlays)
+    for (plot::Series& series : series_of(over, x_unit, y_unit, picture.y.has_value()))
+      out.push_back(std::move(series));
+  return out;
+}
+
 plot::Panel map_of(const Picture& picture, const Shown& shown, const Grid& grid, const Columns& columns) {
   const Column &x = columns.of_axis(picture.x.value), &y = columns.of_axis(picture.y->value);
   return {.x = axis_of(x),
           .y = axis_of(y),
-          .series = overlays_of(picture, x, y),
+          .series = overlays_of(picture, x.unit, y.unit),
           .field = plot::Field{axis_of(columns.of_output(shown.of), shown.suffix), numbers(grid.xs), numbers(grid.ys),
                                grid.of}};
 }
@@ -182,7 +189,7 @@ plot::Panel curves_of(const Picture& picture, const Shown& shown, const Grid& gr
                             .x = numbers(grid.xs),
                             .y = grid.of[k],
                             .marks = true});
-  for (plot::Series& upon : overlays_of(picture, x, y)) panel.series.push_back(std::move(upon));
+  for (plot::Series& upon : overlays_of(picture, x.unit, y.unit)) panel.series.push_back(std::move(upon));
   return panel;
 }
 
@@ -246,7 +253,7 @@ bool draw_series(const Study& study, const Picture& picture, const std::vector<R
   }
   const auto is_empty = [](const plot::Panel& p) { return p.series.empty(); };
   if (std::all_of(figure.panels.begin(), figure.panels.end(), is_empty)) return false;
-  for (plot::Series& upon : overlays_of(picture, time, {.name = "", .unit = figure.panels[0].y.unit}))
+  for (plot::Series& upon : overlays_of(picture, time.unit, figure.panels[0].y.unit))
     figure.panels[0].series.push_back(std::move(upon));
   plot::write_picture(file, figure);
   return true;

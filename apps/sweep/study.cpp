@@ -12,7 +12,6 @@
 #include "scene/build.hpp"
 #include "scene/placed.hpp"
 #include "sweep/numbers.hpp"
-#include "sweep/overlay.hpp"
 
 namespace froude::sweep {
 namespace {
@@ -147,19 +146,6 @@ Binding<Output> output_binding() {
       .place(&Output::place);
 }
 
-Binding<Overlay> overlay_binding() {
-  return Binding<Overlay>("[[picture.upon]]", "a table drawn upon the picture, as of another source")
-      .key(text("file", "CSV, its columns headed by name and unit, beside this one"), &Overlay::file)
-      .key(text("x", "its column along the axis x of the picture"), &Overlay::x)
-      .key(text("y", "its column along the other"), &Overlay::y)
-      .optional(text("by",
-                     "its column of which each text or number has a curve, and stands in the legend; left out: "
-                     "one curve, under the name of the file"),
-                &Overlay::by)
-      .words(text("as", "\"marks\", or \"line\" from row to row").or_default("marks", "as points are published"),
-             Words<bool>{{"marks", false}, {"line", true}}, &Overlay::line);
-}
-
 Binding<Picture> picture_binding() {
   return Binding<Picture>("[[picture]]",
                           "curves over one axis or over the time of runs, or a map over two axes; the numbers stand in "
@@ -174,7 +160,8 @@ Binding<Picture> picture_binding() {
       .optional(text("y", "axis: a map with contours"), &Picture::y)
       .optional(text("by", "axis: a curve for each of its values"), &Picture::by)
       .optional(text("panel", "axis: panels of their own for each of its values"), &Picture::panel)
-      .tables("upon", overlay_binding(), &Picture::overlays)
+      .tables("upon", overlay_binding("[[picture.upon]]", "a table drawn upon the picture, as of another source"),
+              &Picture::overlays)
       .optional()
       .at_most_one_of({"y", "by"});
 }
@@ -268,7 +255,7 @@ void check_pictures(const Study& study) {
     if (!picture.overlays.empty() && (picture.of.size() > 1 || picture.panel))
       throw InputError("[[picture]] upon draws a table upon one panel, and this picture has several",
                        picture.overlays.front().file.place, "draw a picture of each panel by itself");
-    check_overlays(picture);
+    for (const Overlay& over : picture.overlays) check_overlay(over);
   }
 }
 

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "answers/overlay.hpp"
 #include "scene/scene.hpp"
 #include "scene/schema.hpp"
 
@@ -48,14 +49,6 @@ struct Output {
   double from = 0;         ///< s, of a run: what comes before is left out
   std::int64_t count = 1;  ///< of modes
   Place place;
-};
-
-/// A table that is drawn upon a picture.
-struct Overlay {
-  Located<std::filesystem::path> file;  ///< absolute
-  std::string x, y;                     ///< its columns
-  std::optional<std::string> by;        ///< a column, each text or number of which has a curve
-  bool line = false;                    ///< else marks
 };
 
 /// Curves or a map of outputs, and their table beside it; or series of the runs over time.

@@ -117,15 +117,15 @@ void set_rankine(const RankineParts::OfClass& part, const WaveGreen& green, Inde
 }
 
 /// Adds the waves that one panel makes at all points, (rows, images), to column j of the equations of a class.
-void add_waves_of(const Eigen::ArrayXXcd& source, const Eigen::ArrayXXcd& dipole, const Signs& signs, double K, Index j,
+void add_waves_of(const MatrixXcd& source, const MatrixXcd& dipole, const Signs& signs, double K, Index j,
                   Equations& e) {
-  const Eigen::Map<const Eigen::ArrayXd> sign(signs.data(), static_cast<Index>(signs.size()));
-  const Eigen::VectorXcd of_source = source.matrix() * sign.matrix().cast<Complex>();
+  const Eigen::Map<const Eigen::VectorXd> sign(signs.data(), static_cast<Index>(signs.size()));
+  const Eigen::VectorXcd of_source = source * sign.cast<Complex>();
   if (j >= e.velocity.rows()) {  // on the lid
     e.matrix.col(j) -= K * of_source;
     return;
   }
-  e.matrix.col(j) -= dipole.matrix() * sign.matrix().cast<Complex>();
+  e.matrix.col(j) -= dipole * sign.cast<Complex>();
   for (Index m = 0; m < e.velocity.cols(); ++m)
     if (e.velocity(j, m) != 0) e.right.col(m) -= e.velocity(j, m) * of_source;
 }
@@ -137,7 +137,7 @@ void add_waves(const PanelMesh& mesh, const WaveGreen& green, const std::vector<
   const auto rows = static_cast<Index>(points.size()), images = static_cast<Index>(mesh.images.size());
   std::vector<WaveHeight> of_points;
   for (const Vector3d& P : points) of_points.push_back(green.height(P.z()));
-  Eigen::ArrayXXcd source(rows, images), dipole(rows, images);
+  MatrixXcd source(rows, images), dipole(rows, images);
   const auto panels_of_hull = static_cast<Index>(mesh.hull.size());
   for (Index j = 0; j < rows; ++j) {
     const Panel& panel = j < panels_of_hull ? mesh.hull[static_cast<std::size_t>(j)]
