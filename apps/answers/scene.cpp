@@ -5,6 +5,7 @@
 #include <variant>
 
 #include "answers/answers.hpp"
+#include "answers/controlled_run.hpp"
 #include "answers/cost.hpp"
 #include "answers/fit_kind.hpp"
 #include "hydro/base/error.hpp"
@@ -82,9 +83,12 @@ Scene Scene::with(const SceneValues& values) const {
       std::make_shared<const Shared>(Shared{Motion{motion.source, std::move(all), std::move(changed), motion.kept}}));
 }
 
-Run Scene::run(const std::function<void(double)>& progress, const std::vector<Control>& controls) const {
+Run Scene::run(const std::function<void(double)>& progress, const std::vector<Control>& controls,
+               const std::vector<JointControl>& of_joints) const {
   require_asked(read().run, read(), "a run", "run = { duration = \"600 s\", every = \"0.05 s\" }");
-  return simulate(read(), progress, controls, shared_->motion().kept);
+  const auto& kept = shared_->motion().kept;
+  return of_joints.empty() ? simulate(read(), progress, controls, kept)
+                           : simulate_controlled(read(), progress, controls, of_joints, kept);
 }
 
 Responses Scene::rao() const {

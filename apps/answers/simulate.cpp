@@ -5,10 +5,12 @@
 #include <optional>
 #include <stdexcept>
 
+#include "answers/controlled_run.hpp"
 #include "answers/estimate.hpp"
 #include "answers/linear_response.hpp"
 #include "answers/provenance.hpp"
 #include "compile/integrator.hpp"
+#include "compile/joint_control.hpp"
 #include "compile/signal_list.hpp"
 #include "dynamics/force/fastened_line.hpp"
 #include "dynamics/integrate/start_with_lines.hpp"
@@ -29,16 +31,22 @@ double rounding_of(const dynamics::Model& model) {
   return mass * gravity * lift;
 }
 
+/// What sets numbers of a run between its steps.
+struct Rulers {
+  compile::Controllers connectors;
+  compile::JointControllers joints;
+};
+
 /// One run on its way: stepping, book-keeping of energy, samples.
 class March {
  public:
-  March(const compile::TimeModel& m, const std::vector<compile::Signal>& signals, compile::Controllers controllers,
+  March(const compile::TimeModel& m, const std::vector<compile::Signal>& signals, Rulers rulers,
         const scene::Scene& scene, const KeptRun& kept, Run& record)
       : m_(m),
         scene_(scene),
         kept_(kept),
         signals_(signals),
-        controllers_(std::move(controllers)),
+        rulers_(std::move(rulers)),
         record_(record),
         workspace_(std::in_place, m.model, m.start),
         integrator_(compile::make_integrator(scene, m.model)),
@@ -80,9 +88,28 @@ class March {
     if (bodies()) dynamics::start_with_lines(*integrator_, *workspace_);
     begin_lines();
     dynamics::EnergyLedger ledger(m_.model, *workspace_);
+    const bool ruled = rule_first(ledger);
     sample(ledger);
     if (motion_) motion_->of_modes.col(0) = workspace_->state.velocity;
-    march(1, ledger, done);
+    if (ruled)
+      march(1, ledger, done);
+    else
+      close(ledger);
+  }
+  /// Forces of joints are set where the run begins. False where their controller ends it there.
+  bool rule_first(dynamics::EnergyLedger& ledger) {
+    try {
+      follow(rulers_.joints.decide({m_.model, *workspace_, ledger, lines_}), ledger);
+      return true;
+    } catch (const hydro::NumericsError& e) {
+      record_.stopped = e.what();
+      return false;
+    }
+  }
+  void follow(bool loads_jumped, dynamics::EnergyLedger& ledger) {
+    if (!loads_jumped) return;
+    integrator_->loads_jumped(*workspace_);
+    ledger.note(*workspace_);
   }
   void march(std::size_t first, dynamics::EnergyLedger& ledger, const std::function<void(double)>& done) {
     try {
@@ -186,10 +213,9 @@ class March {
     record_.steps = n;
     ledger.note(*workspace_);
     for (auto& line : lines_) line->note(m_.step);
-    if (controllers_.decide({m_.model, *workspace_, ledger, lines_})) {
-      integrator_->loads_jumped(*workspace_);
-      ledger.note(*workspace_);
-    }
+    const compile::Moment now{m_.model, *workspace_, ledger, lines_};
+    const bool joints_jumped = rulers_.joints.decide(now);
+    follow(rulers_.connectors.decide(now) || joints_jumped, ledger);
     watch(n, balance(ledger));
     watch_losses(n, ledger);
   }
@@ -278,7 +304,7 @@ class March {
   double writing_s_ = 0;              // that the last one took
   Clock::time_point written_ = {};
   const std::vector<compile::Signal>& signals_;
-  compile::Controllers controllers_;
+  Rulers rulers_;
   std::vector<std::unique_ptr<compile::LineRun>> lines_;
   Run& record_;
   std::optional<dynamics::Workspace> workspace_;
@@ -299,32 +325,16 @@ Provenance provenance_of_run(const scene::Scene& scene) {
   return out;
 }
 
-}  // namespace
-
-namespace {
-
-/// Controllers of the caller's have a memory of their own: they are not asked twice of the same time.
-Run run_once(const scene::Scene& scene, const compile::Prepared& prepared, const std::function<void(double)>& done) {
-  const auto begin = Clock::now();
-  const compile::TimeModel model = compile::time_model(scene, prepared);
-  const double preparation = seconds_since(begin);
-  Run out = run_model(scene, model, done);
-  out.preparation_s = preparation;
-  out.error = unknown_error(scene, "controllers of the caller decide, which can be asked once only");
-  return out;
-}
-
-}  // namespace
-
-Run run_model(const scene::Scene& scene, const compile::TimeModel& model, const std::function<void(double)>& done,
-              compile::MovingState* end, compile::VelocityRecord* motion, const KeptRun& kept) {
+Run run_ruled(const scene::Scene& scene, const compile::TimeModel& model, std::vector<compile::RuledJoint> joints,
+              const std::function<void(double)>& done, compile::MovingState* end, compile::VelocityRecord* motion,
+              const KeptRun& kept) {
   Run record;
   const auto all = compile::signal_list(scene, model);
   const auto signals = compile::chosen(all, scene.run->of, scene.run->of_places);
   record.step = model.step;
   record.notes = model.notes;
   record.provenance = provenance_of_run(scene);
-  March march(model, signals, {model.rules, all}, scene, kept, record);
+  March march(model, signals, {{model.rules, all}, {std::move(joints), all}}, scene, kept, record);
   if (motion) march.keep_motion(*motion);
   const auto stepping = Clock::now();
   march.run(done);
@@ -333,21 +343,40 @@ Run run_model(const scene::Scene& scene, const compile::TimeModel& model, const 
   return record;
 }
 
-Run simulate(const scene::Scene& scene, const std::function<void(double)>& done, const std::vector<Control>& controls,
-             const std::shared_ptr<compile::Kept>& kept, int threads, Checkpoints* checkpoints,
-             const Interruption* interruption) {
-  if (scene.run->steady) {
-    if (!controls.empty())
-      throw hydro::InputError("[ask.run] start = \"steady\" takes no step at which a controller could decide",
-                              scene.run->place, "step the run from \"as placed\"");
-    return steady_run(scene, kept, threads);
-  }
+}  // namespace
+
+Run run_model(const scene::Scene& scene, const compile::TimeModel& model, const std::function<void(double)>& done,
+              compile::MovingState* end, compile::VelocityRecord* motion, const KeptRun& kept) {
+  return run_ruled(scene, model, {}, done, end, motion, kept);
+}
+
+Run simulate_controlled(const scene::Scene& scene, const std::function<void(double)>& done,
+                        const std::vector<Control>& controls, const std::vector<JointControl>& of_joints,
+                        const std::shared_ptr<compile::Kept>& kept) {
+  if (scene.run->steady)
+    throw hydro::InputError("[ask.run] start = \"steady\" takes no step at which a controller could decide",
+                            scene.run->place, "step the run from \"as placed\"");
   const auto begin = Clock::now();
   compile::Prepared prepared = compile::prepare(scene, kept);
   compile::set_controllers(controls, prepared);
+  std::vector<compile::RuledJoint> joints = compile::set_joint_controllers(scene, of_joints, prepared);
+  const compile::TimeModel model = compile::time_model(scene, prepared);
   const double preparation = seconds_since(begin);
-  Run record = controls.empty() ? run_to_accuracy(scene, prepared, done, threads, checkpoints, interruption)
-                                : run_once(scene, prepared, done);
+  Run record = run_ruled(scene, model, std::move(joints), done, nullptr, nullptr, {});
+  record.preparation_s = preparation;
+  record.error = unknown_error(scene, "controllers of the caller decide, which can be asked once only");
+  return record;
+}
+
+Run simulate(const scene::Scene& scene, const std::function<void(double)>& done, const std::vector<Control>& controls,
+             const std::shared_ptr<compile::Kept>& kept, int threads, Checkpoints* checkpoints,
+             const Interruption* interruption) {
+  if (!controls.empty()) return simulate_controlled(scene, done, controls, {}, kept);
+  if (scene.run->steady) return steady_run(scene, kept, threads);
+  const auto begin = Clock::now();
+  const compile::Prepared prepared = compile::prepare(scene, kept);
+  const double preparation = seconds_since(begin);
+  Run record = run_to_accuracy(scene, prepared, done, threads, checkpoints, interruption);
   record.preparation_s += preparation;
   record.estimating_s = seconds_since(begin) - record.preparation_s - record.stepping_s;
   return record;

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <memory>
 
+#include "compile/sample.hpp"
 #include "dynamics/control/dominant_period.hpp"
 #include "hydro/base/error.hpp"
 
@@ -46,36 +46,6 @@ void check(const std::string& pattern, const dynamics::SwitchedConnectors& group
   }
 }
 
-using SignalsByName = std::map<std::string, Signal>;
-
-const Signal& named(const SignalsByName& signals, const scene::Located<std::string>& name) {
-  if (const auto found = signals.find(name.value); found != signals.end()) return found->second;
-  std::vector<std::string> known;
-  for (const auto& [other, signal] : signals) known.push_back(other);
-  throw scene::no_signal(name.value, name.place, known);
-}
-
-/// One instant of a run, as a controller of the caller's sees it.
-class SampleOfRun final : public Sample {
- public:
-  SampleOfRun(const SignalsByName& signals, const Moment& now) : signals_(signals), now_(now) {}
-  double time() const override { return now_.workspace.state.time; }
-  double operator[](const std::string& signal) const override { return named(signals_, {signal, {}}).value(now_); }
-  dynamics::Vector6 velocity(const std::string& body) const override {
-    std::vector<std::string> names;
-    for (const dynamics::RigidBody& b : now_.model.bodies()) names.push_back(b.name());
-    const auto found = std::find(names.begin(), names.end(), body);
-    if (found == names.end())
-      throw hydro::InputError(fmt::format("the scene has no body \"{}\"", body), {},
-                              fmt::format("bodies are: {}", fmt::join(names, ", ")));
-    return now_.workspace.state.twist(static_cast<int>(found - names.begin()));
-  }
-
- private:
-  const SignalsByName& signals_;
-  const Moment& now_;
-};
-
 std::function<std::optional<double>(const Moment&)> ruled_by(const scene::StiffnessSwitch& rule,
                                                              const std::shared_ptr<const SignalsByName>& signals) {
   return [watched = named(*signals, rule.watch), controller = dynamics::DominantPeriodController(rule)](
@@ -87,9 +57,10 @@ std::function<std::optional<double>(const Moment&)> ruled_by(const Control& cont
   return [control, signals](const Moment& now) {
     const auto stiffness = control.decide(SampleOfRun(*signals, now));
     if (stiffness && !std::isfinite(*stiffness))
-      throw hydro::InputError(fmt::format("the controller of \"{}\" asks for a stiffness of {} N/m at {:.6g} s",
-                                          control.connectors, *stiffness, now.workspace.state.time),
-                              {}, "return a number, or nothing to leave the stiffness as it is");
+      throw hydro::NumericsError(
+          fmt::format("the controller of \"{}\" asks for a stiffness of {} N/m at t = {:.6g} s; it must return a "
+                      "number, or nothing to leave the stiffness as it is",
+                      control.connectors, *stiffness, now.workspace.state.time));
     return stiffness;
   };
 }
@@ -113,10 +84,9 @@ void set_controllers(const std::vector<Control>& controls, Prepared& p) {
 
 Controllers::Controllers(const std::vector<Rule>& rules, const std::vector<Signal>& signals) {
   if (rules.empty()) return;
-  const auto by_name = std::make_shared<SignalsByName>();
-  for (const Signal& s : signals) by_name->emplace(s.name, s);
+  const auto all = by_name(signals);
   for (const Rule& rule : rules)
-    rules_.push_back(std::visit([&](const auto& one) { return ruled_by(one, by_name); }, rule));
+    rules_.push_back(std::visit([&](const auto& one) { return ruled_by(one, all); }, rule));
 }
 
 bool Controllers::decide(const Moment& now) {

@@ -34,10 +34,11 @@ Json contents_of_hdf5(const Path& path, const html::Options& options) {
   if (kind == "froude run") return html::run_contents(path, options);
   if (kind == "froude rao") return html::rao_contents(path);
   if (kind == "froude modes") return html::modes_contents(path);
+  if (kind == "froude field") return html::field_contents(path, options);
   if (kind == "froude psd") return html::spectra_contents(path);
   throw InputError(
       kind.empty() ? "this is no result of froude" : fmt::format("a report does not show results of `{}`", kind),
-      {.file = path.string()}, "give results of `froude run`, `rao`, `modes`, `waves make` or `psd`");
+      {.file = path.string()}, "give results of `froude run`, `rao`, `modes`, `field`, `waves make` or `psd`");
 }
 
 /// A fit scene is fitted now: its file of estimates holds no measurements to draw.

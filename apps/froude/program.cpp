@@ -9,9 +9,11 @@
 #include "froude/described.hpp"
 #include "froude/experiment_options.hpp"
 #include "froude/export_options.hpp"
+#include "froude/film_options.hpp"
 #include "froude/kept_fits.hpp"
 #include "froude/path_options.hpp"
 #include "froude/sweep_options.hpp"
+#include "froude/validate_options.hpp"
 #include "froude/watched_hulls.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/base/units.hpp"
@@ -384,7 +386,7 @@ void add_report(CLI::App& app, Request& request) {
   auto arguments = std::make_shared<ReportArguments>();
   command
       ->add_option("results", arguments->results,
-                   "of run, rao, modes, waves make or psd (.h5), of psd or response (.csv), folders of sweeps, "
+                   "of run, rao, modes, field, waves make or psd (.h5), of psd or response (.csv), folders of sweeps, "
                    "estimates of fit (.toml), or a fit scene, which is then fitted")
       ->required();
   command->add_option("-o,--output", arguments->output, "the report (.html)")->required();
@@ -465,18 +467,27 @@ void add_kinematics(CLI::App& app, Request& request) {
   calls(*command, request, arguments, kinematics);
 }
 
-constexpr const char* commands_about_films[] = {"track", "calibrate", "film"};
-
-/// Stand in the help only: main_program() hands over to other programs before the options of these commands are read.
-void add_other_programs(CLI::App& app) {
-  app.add_subcommand("track", "bright discs of a film, frame by frame, with the covariance of each place");
-  app.add_subcommand("calibrate", "lens and plane of motion from pictures of a checkerboard");
-  app.add_subcommand("film", "a film of a run, whose truth is known");
-  app.add_subcommand("validate",
-                     "compares with closed forms, experiments and other codes; status 1 if a limit is broken");
+/// Words of the command line without that of the command; only flags stand before it.
+std::vector<std::string> without(const std::string& command, std::vector<std::string> words) {
+  words.erase(std::find(words.begin(), words.end(), command));
+  return words;
 }
 
-void describe(CLI::App& app, Request& request) {
+/// Commands that are programs of their own: they get the words as they stand, once these are read without an error.
+void add_other_programs(CLI::App& app, Request& request, const std::vector<std::string>& words) {
+  const auto films = [words](const char* command) {
+    return [=](const auto&, const Console&) {
+      std::vector<std::string> arguments = without(command, words);
+      arguments.insert(arguments.begin(), command);
+      about_films(std::move(arguments));
+    };
+  };
+  add_films(app, request, {.track = films("track"), .calibrate = films("calibrate"), .film = films("film")});
+  describe_validate(*app.add_subcommand("validate"), request,
+                    [words](const ValidateArguments&, const Console&) -> int { validate(without("validate", words)); });
+}
+
+void describe(CLI::App& app, Request& request, const std::vector<std::string>& words) {
   app.description("Floating and submerged structures in waves: RAOs, time series, spectra, fitted coefficients.");
   app.footer(
       "Examples:\n  froude new -o scene.toml\n  froude rao scene.toml --picture rao.svg\n  froude run scene.toml -o "
@@ -513,48 +524,30 @@ void describe(CLI::App& app, Request& request) {
   add_export(app, request);
   add_cost(app, request);
   add_sweep(app, request, sweep_scenes);
-  add_other_programs(app);
+  add_other_programs(app, request, words);
   add_described(app, request);
 }
 
-/// A command that is a program of its own, with what follows it and what stands before it: only flags do, and they
-/// belong to every command.
-struct OtherProgram {
-  std::string command;
-  std::vector<std::string> arguments;
-};
-std::optional<OtherProgram> other_program(int argc, char** argv) {
-  OtherProgram out{{}, {argv + std::min(argc, 1), argv + argc}};
-  const auto command = std::find_if_not(out.arguments.begin(), out.arguments.end(),
-                                        [](const std::string& argument) { return argument.starts_with('-'); });
-  if (command == out.arguments.end()) return std::nullopt;
-  out.command = *command;
-  const bool film = std::find(std::begin(commands_about_films), std::end(commands_about_films), out.command) !=
-                    std::end(commands_about_films);
-  const bool ranks = out.command == "sweep" && is_shared_among_ranks(out.arguments);
-  if (!film && !ranks && out.command != "validate") return std::nullopt;
-  out.arguments.erase(command);
-  if (out.command != "validate") out.arguments.insert(out.arguments.begin(), out.command);
-  return out;
+/// True if this process shares a sweep with others: froude-ranks takes it, before its options are read.
+bool is_one_of_several(const std::vector<std::string>& words) {
+  const auto command =
+      std::find_if_not(words.begin(), words.end(), [](const std::string& word) { return word.starts_with('-'); });
+  return command != words.end() && *command == "sweep" && is_shared_among_ranks(words);
 }
 
 }  // namespace
 
 int run_program(int argc, char** argv) {
   Request request;
-  if (const auto other = other_program(argc, argv)) {
-    const auto& arguments = other->arguments;
-    request.json = std::find(arguments.begin(), arguments.end(), "--json") != arguments.end();
-    request.call = [&](const Console&) -> int {
-      if (other->command == "validate") validate(arguments);
-      if (other->command == "sweep") sweep_among_ranks(arguments);
-      about_films(arguments);
-    };
+  const std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
+  if (is_one_of_several(words)) {
+    request.json = std::find(words.begin(), words.end(), "--json") != words.end();
+    request.call = [&](const Console&) -> int { sweep_among_ranks(words); };
     return carry_out(request);
   }
   CLI::App app;
   app.name("froude");
-  describe(app, request);
+  describe(app, request, words);
   app.final_callback([&request] {
     request.call = [call = std::move(request.call)](const Console& console) {
       keep_fits_in(users_folder_of_fits());

@@ -23,6 +23,15 @@ Json array_as(const char* type, std::span<const double> values) {
 Json single_array(std::span<const double> values) { return array_as<float>("f32", values); }
 Json double_array(std::span<const double> values) { return array_as<double>("f64", values); }
 
+Json complex_array(std::span<const double> pairs) {
+  std::vector<double> re, im;
+  for (std::size_t i = 0; i + 1 < pairs.size(); i += 2) {
+    re.push_back(pairs[i]);
+    im.push_back(pairs[i + 1]);
+  }
+  return {{"re", single_array(re)}, {"im", single_array(im)}};
+}
+
 Thinning::Thinning(std::size_t samples, std::size_t most)
     : samples_(samples), piece_(samples <= most ? 1 : (2 * samples + most - 1) / most) {}
 

@@ -15,6 +15,8 @@ using Json = nlohmann::ordered_json;
 Json single_array(std::span<const double> values);
 /// {"n": how many, "f64": base64}: of times, whose differences must keep their digits, and of tables.
 Json double_array(std::span<const double> values);
+/// Real and imaginary parts that stand side by side, as files have them: {"re": …, "im": …}, single_array() each.
+Json complex_array(std::span<const double> pairs);
 
 /// How a record is shown in fewer points: it is cut into pieces of equally many samples, of each of which the lowest
 /// and the highest value are kept in the order in which they come, so that no extreme is lost. Where the record is

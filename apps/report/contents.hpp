@@ -44,6 +44,8 @@ Json run_difference(const std::filesystem::path& first, const std::filesystem::p
 Json rao_contents(const std::filesystem::path& path);
 /// A result of `froude modes`. \throws hydro::InputError
 Json modes_contents(const std::filesystem::path& path);
+/// A result of `froude field`, with the outlines of the bodies that make waves. \throws hydro::InputError
+Json field_contents(const std::filesystem::path& path, const Options& options);
 /// Spectra of `froude psd`, .h5. \throws hydro::InputError
 Json spectra_contents(const std::filesystem::path& path);
 /// Tables of `froude psd`, `froude response` and others, .csv, along their first column. \throws hydro::InputError

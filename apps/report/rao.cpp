@@ -14,16 +14,6 @@ namespace fs = std::filesystem;
 using hydro::io::Array;
 using hydro::io::Hdf5Reader;
 
-/// Real and imaginary parts, which stand side by side in the file, one after the other.
-Json complex_array(const Array& array) {
-  std::vector<double> re, im;
-  for (std::size_t i = 0; i + 1 < array.values.size(); i += 2) {
-    re.push_back(array.values[i]);
-    im.push_back(array.values[i + 1]);
-  }
-  return {{"re", single_array(re)}, {"im", single_array(im)}};
-}
-
 std::string unit_of(const Hdf5Reader& file, const std::string& dataset) {
   const std::string unit = file.has_attribute(dataset, "units") ? file.text_attribute(dataset, "units") : "";
   return unit == "1" ? "" : unit;
@@ -46,7 +36,7 @@ Json rao_in(const fs::path& path) {
                               {.file = path.string()}, "answer the scene again");
     Json one{
         {"name", name}, {"unit", unit_of(file, dataset)}, {"long_name", file.text_attribute(dataset, "long_name")}};
-    one.update(complex_array(values));
+    one.update(complex_array(values.values));
     if (file.has_attribute(dataset, "error")) one["error"] = file.number_attribute(dataset, "error");
     signals.push_back(std::move(one));
   }

@@ -14,14 +14,14 @@ waterplane; harmonic quantities are Re(amplitude e^{+i omega t}). What cannot be
 line, column, the rule and the remedy.
 """
 from froude._froude import (
-    AnswerCost, Coefficients, Cost, CostRung, Densities, Density, Estimate, Fit, FreeSurface, InputError, Modes,
-    NumericsError, Plan, PlanLine, Rao, Run, Sample, Scene, Spectrum, Sweep, Water, __version__)
+    AnswerCost, Coefficients, Cost, CostRung, Densities, Density, Estimate, Fit, FreeSurface, InputError, JointSample,
+    Modes, NumericsError, Plan, PlanLine, Rao, Run, Sample, Scene, Spectrum, Sweep, Water, __version__)
 from froude.calls import (
     coefficients, cost, export, field, fit, modes, plan, psd, rao, read, read_text, response, run, sweep, waves)
 from froude.seas import sea, spectrum
 
 __all__ = [
     "AnswerCost", "Coefficients", "Cost", "CostRung", "Densities", "Density", "Estimate", "Fit", "FreeSurface", "InputError",
-    "Modes", "NumericsError", "Plan", "PlanLine", "Rao", "Run", "Sample", "Scene", "Spectrum", "Sweep", "Water",
+    "JointSample", "Modes", "NumericsError", "Plan", "PlanLine", "Rao", "Run", "Sample", "Scene", "Spectrum", "Sweep", "Water",
     "__version__", "coefficients", "cost", "export", "field", "fit", "modes", "plan", "psd", "rao", "read", "read_text",
     "response", "run", "sea", "spectrum", "sweep", "waves"]

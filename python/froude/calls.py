@@ -2,7 +2,7 @@
 import json
 import os
 from collections.abc import Callable, Mapping, Sequence
-from typing import Optional, Union
+from typing import Any, Optional, Union
 
 from froude import _froude
 from froude.progress import Progress, telling
@@ -10,6 +10,8 @@ from froude.progress import Progress, telling
 FileName = Union[str, "os.PathLike[str]"]
 Value = Union[bool, int, float, str]
 AnyScene = Union[_froude.Scene, FileName]
+# Of a Sample a stiffness; of a JointSample a force, or force, stiffness and damping.
+Controller = Callable[[Any], Union[None, float, tuple[float, float, float]]]
 
 
 def _plain(values: Optional[Mapping[str, Value]]) -> dict:
@@ -75,7 +77,7 @@ def read_text(text: str, folder: FileName = ".", set: Optional[Mapping[str, Valu
     return _froude.read_text(text, os.path.join(folder, "scene.toml"), _plain(set))
 
 
-def run(scene: AnyScene, controllers: Optional[Mapping[str, Callable[[_froude.Sample], Optional[float]]]] = None, *,
+def run(scene: AnyScene, controllers: Optional[Mapping[str, Controller]] = None, *,
         progress: Progress = None) -> _froude.Run:
     """Runs a scene in time, as its ``[ask] run`` says.
 
@@ -83,20 +85,26 @@ def run(scene: AnyScene, controllers: Optional[Mapping[str, Callable[[_froude.Sa
     ----------
     scene : Scene or path
     controllers : dict, optional
-        For names of axial connectors (``*`` stands for any characters) a function of a `Sample`, called at the end of
-        each step, that returns the new stiffness, N/m, or None to leave it.
+        Functions by names; ``*`` stands for any characters. Of axial connectors a function of a `Sample`, called at the
+        end of each step, that returns the new stiffness, N/m, or None to leave it. Of sliders and hinges a function of
+        a `JointSample`, called at the beginning and at the end of each step, that returns the force against the
+        stroke, N, or the moment against the angle, N m, or with it how it follows both within the step, ``(force,
+        stiffness, damping)``, or None to leave what acts. From its first force on it takes the place of spring,
+        damper and preload of a ``[joint.pto]``, whose limit, stops and latch stay.
     progress : bool or function, optional
         True draws a bar on stderr after a second; a function is called with the share done, 0 to 1, and "run".
 
     Returns
     -------
     Run
-        Numerics that give up end it early: `Run.stopped` says why.
+        Numerics that give up, and controllers that return what is not finite, end it early: `Run.stopped` says why.
 
     Raises
     ------
     InputError
-        For a scene that asks for no run or cannot be, and for controllers without a connector.
+        For a scene that asks for no run or cannot be, and for controllers of what is not there.
+    Exception
+        What a controller raises, with what the run has until then as its attribute ``run``.
     KeyboardInterrupt
         At Ctrl-C; nothing is kept.
     """

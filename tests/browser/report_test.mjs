@@ -232,6 +232,105 @@ test('a sweep is a map that tells its values', async () => {
   });
 });
 
+/** A post that stands in waves: small, and known in all its numbers. */
+writeFileSync(
+  file('post.toml'),
+  `schema = 1
+title = "A post"
+[water]
+density = "1000 kg/m^3"
+depth = "10 m"
+[[body]]
+name = "post"
+mass = "1 t"
+free = "heave"
+[body.hydrodynamics]
+excitation = true
+cylinders = { at = "(6, 2, 0) m", diameter = "4 m", draught = "6 m", frequencies = "1.5 rad/s .. 1.6 rad/s, 2 values" }
+[ask]
+field = { omega = "1.5 rad/s", bodies = "held", x = "0 m .. 12 m, 25 values", y = "-4 m .. 8 m, 25 values" }
+accuracy = 0.1
+`,
+);
+
+/** The colours of the nine pixels about a place of a map, in px of its canvas. */
+const pixelsAt = (canvas, x, y) =>
+  canvas.evaluate(
+    (c, [px, py]) => {
+      const { data } = c
+        .getContext('2d')
+        .getImageData(Math.round(px * devicePixelRatio) - 1, Math.round(py * devicePixelRatio) - 1, 3, 3);
+      return Array.from({ length: 9 }, (_, i) => [...data.slice(4 * i, 4 * i + 4)]);
+    },
+    [x, y],
+  );
+/** Ink of the light theme, #1c2733, is darker than any colour of the scale, whose darkest is #440154. */
+const hasInk = (pixels) => pixels.some(([r, g, b, a]) => a > 250 && Math.max(r, g, b) < 65);
+
+for (const [width, height] of [
+  [1280, 900],
+  [400, 800],
+])
+  test(`a free surface is a map with outlines of the bodies, in ${width} px`, async () => {
+    run('field', 'post.toml', '-o', 'post.h5');
+    const told = JSON.parse(run('--json', 'field', 'post.toml', '-o', 'post.h5'));
+    await looking(
+      report('field.html', 'post.h5'),
+      async (page) => {
+        const amplitude = figureNamed(page, 'Amplitude per metre of wave amplitude');
+        const canvas = amplitude.locator('canvas.plane');
+        await canvas.waitFor();
+        assert.ok((await colouredPixels(canvas)) > 5000);
+        assert.equal(await amplitude.locator('.plot').getAttribute('data-x'), 'x [m]');
+        assert.equal(await amplitude.locator('.plot').getAttribute('data-y'), 'y [m]');
+        assert.match(await amplitude.locator('.scalebar').textContent(), /amplitude of elevation \[m\/m\]/);
+        // Axes have one scale: the middle of the post is that of the grid, half a cell further on each side.
+        await canvas.scrollIntoViewIfNeeded();
+        const box = await canvas.boundingBox();
+        const [left, right, top, bottom] = [64, box.width - 14, 10, box.height - 44];
+        const per = Math.max(12.5 / (right - left), 12.5 / (bottom - top));
+        const at = (x, y) => [(left + right) / 2 + (x - 6) / per, (top + bottom) / 2 - (y - 2) / per];
+        const about = (r, angle) => pixelsAt(canvas, ...at(6 + r * Math.cos(angle), 2 + r * Math.sin(angle)));
+        assert.ok(
+          (await about(1.2, 0.8)).every((p) => p[3] === 0),
+          'a point in the post has no colour',
+        );
+        assert.ok(
+          (await about(5, 0.8)).every((p) => p[3] === 255),
+          'a point in the water has one',
+        );
+        for (const angle of [0.3, 1.9, 4]) {
+          assert.ok(hasInk(await about(2, angle)), `the side of the post is drawn at ${angle} rad`);
+          assert.ok(!hasInk(await about(2.6, angle)), `nothing else is at ${angle} rad`);
+        }
+        await page.mouse.move(box.x + (left + right) / 2, box.y + bottom - 3);
+        const said = await amplitude.locator('.readout').textContent();
+        assert.match(said, /x 6 m, y .*: amplitude of elevation [0-9.]+ m/);
+        // The surface goes by: a quarter of a period later it is another one.
+        const surface = figureNamed(page, 'Surface while the wave goes by');
+        await surface.scrollIntoViewIfNeeded();
+        const wave = surface.locator('canvas.plane');
+        await wave.waitFor();
+        const picture = () => wave.evaluate((c) => c.toDataURL());
+        const first = await picture();
+        await surface.getByLabel('Time, s').fill('1');
+        assert.notEqual(await picture(), first);
+        assert.match(await surface.locator('.scalebar').textContent(), /elevation at t = 1\.0 s/);
+        const before = await canvas.evaluate((c) => c.toDataURL());
+        await page.getByLabel('Part').selectOption('scattered');
+        assert.notEqual(await canvas.evaluate((c) => c.toDataURL()), before, 'another part is another map');
+        const drift = page.locator('tr', { hasText: 'mean drift force along x' }).locator('td');
+        const { x_N_m2 } = told.mean_drift;
+        assert.equal(await drift.textContent(), `${Number((x_N_m2 / 1000).toPrecision(4))} kN/m²`);
+        await page.getByLabel('Lengths').selectOption('ft');
+        assert.equal(await amplitude.locator('.plot').getAttribute('data-x'), 'x [ft]');
+        const [wide, window] = await page.evaluate(() => [document.documentElement.scrollWidth, innerWidth]);
+        assert.ok(wide <= window, `${wide} px in a window of ${window} px`);
+      },
+      { width, height },
+    );
+  });
+
 test('nothing is wider than a telephone, and all controls are reached by the keyboard', async () => {
   await looking(
     moored(),
@@ -286,6 +385,86 @@ test('a page of paper has every figure whole, and the notes', async () => {
     { width: 700, height: 900 },
   );
 });
+
+/** Of what is drawn on a canvas the lightest grey: ink, by its three colours from 0 to 255. */
+const lightestGrey = (canvas) =>
+  canvas.evaluate((c) => {
+    const copy = document.createElement('canvas');
+    copy.width = c.width;
+    copy.height = c.height;
+    const pen = copy.getContext('2d');
+    pen.drawImage(c, 0, 0);
+    const { data } = pen.getImageData(0, 0, copy.width, copy.height);
+    let most = 0;
+    for (let i = 0; i < data.length; i += 4) {
+      const rgb = data.slice(i, i + 3);
+      if (data[i + 3] > 250 && Math.max(...rgb) - Math.min(...rgb) < 24) most = Math.max(most, data[i]);
+    }
+    return most;
+  });
+
+/** Luminance by the contrast rule of WCAG 2.1, 0 black, 1 white, of "rgb(…)". */
+function luminance(colour) {
+  const [r, g, b] = /\(([^)]*)\)/
+    .exec(colour)[1]
+    .split(/[, ]+/)
+    .map((v) => v / 255)
+    .map((v) => (v <= 0.03928 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4));
+  return 0.2126 * r + 0.7152 * g + 0.0722 * b;
+}
+
+for (const [dark, more, choose] of [
+  ['chosen', {}, true],
+  ['that of the system', { colorScheme: 'dark' }, false],
+])
+  test(`paper is white and its ink dark, where the dark theme is ${dark}`, async () => {
+    await looking(
+      moored(),
+      async (page) => {
+        if (choose) await page.getByRole('combobox', { name: 'Appearance' }).selectOption('dark');
+        const heave = figureNamed(page, 'Heave').locator('canvas');
+        await heave.scrollIntoViewIfNeeded();
+        await heave.waitFor();
+        const paper = () => page.evaluate(() => getComputedStyle(document.body).backgroundColor);
+        const dark_ = await paper();
+        assert.ok(luminance(dark_) < 0.05, `the screen is dark: ${dark_}`);
+        // The ink of axes, #e4ebf2, is lighter than that of the grid; on paper it is #111111, the grid #cccccc.
+        assert.ok((await lightestGrey(heave)) > 220, 'the ink of a dark screen is light');
+        await page.emulateMedia({ media: 'print', ...more });
+        // The style sheet by itself, as where a browser prints without telling the page.
+        const all = await page.evaluate(() => {
+          const parts = 'body, h1, h3, figure, figcaption .name, td, thead th, .note, .alarm, dd, pre, summary, footer';
+          const groundOf = (element) => {
+            const ground = getComputedStyle(element).backgroundColor;
+            return ground === 'rgba(0, 0, 0, 0)' && element.parentElement ? groundOf(element.parentElement) : ground;
+          };
+          return [...document.querySelectorAll(parts)].map((element) => [
+            `${element.tagName} ${element.className}`,
+            getComputedStyle(element).color,
+            groundOf(element),
+          ]);
+        });
+        assert.ok(all.length > 15);
+        for (const [where, ink, ground] of all) {
+          assert.ok(luminance(ground) > 0.85, `${where} on ${ground}`);
+          // 4.5 is the contrast that WCAG 2.1 asks for texts (1.4.3).
+          assert.ok((luminance(ground) + 0.05) / (luminance(ink) + 0.05) > 4.5, `${where}: ${ink} on ${ground}`);
+        }
+        // Drawings are made anew before the page is a page of paper, and again once it is a screen.
+        await page.emulateMedia({ media: 'screen', ...more });
+        await page.evaluate(() => dispatchEvent(new Event('beforeprint')));
+        await page.emulateMedia({ media: 'print', ...more });
+        await page.waitForFunction(() => document.querySelectorAll('.plot canvas').length > 10);
+        assert.ok((await lightestGrey(figureNamed(page, 'Heave').locator('canvas'))) < 220, 'drawings have dark ink');
+        await page.emulateMedia({ media: 'screen', ...more });
+        await page.evaluate(() => dispatchEvent(new Event('afterprint')));
+        assert.equal(await paper(), dark_, 'the screen is dark again');
+        assert.ok((await lightestGrey(figureNamed(page, 'Heave').locator('canvas'))) > 220);
+      },
+      { width: 1280, height: 900 },
+      more,
+    );
+  });
 
 test('curves are there within a second', async () => {
   const html = moored();

@@ -12,26 +12,27 @@ import unittest
 from pathlib import Path
 
 PROGRAM, SOURCE = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
-# Programs of their own, whose options the program does not know.
-OTHERS = {"track", "calibrate", "film", "validate"}
 
 
 def said(*words):
     return subprocess.run([PROGRAM, *words], check=True, capture_output=True, text=True).stdout
 
 
+COMMON = {"--version", "--json", "--quiet"}  # of the program that a command belongs to
+
+
+def options_in(text):
+    return {name for line in text.splitlines() if re.match(r"  -", line)
+            for name in re.findall(r"(?<![\w-])--?[a-z][\w-]*", re.split(r"  +", line.strip())[0])}
+
+
 def commands(path=()):
     """Each command with its options, as its own help tells them."""
     text = said(*path, "--help")
-    options = {name for line in text.splitlines() if re.match(r"  -", line)
-               for name in re.findall(r"(?<![\w-])--?[a-z][\w-]*", re.split(r"  +", line.strip())[0])}
-    yield path, options
+    yield path, options_in(text)
     listed = re.search(r"^Subcommands:\n((?:  .*\n)+)", text, re.MULTILINE)
     for name in re.findall(r"^  (\w+)", listed[1], re.MULTILINE) if listed else []:
-        if name in OTHERS:
-            yield (*path, name), set()
-        else:
-            yield from commands((*path, name))
+        yield from commands((*path, name))
 
 
 def completed(script, *words):
@@ -61,6 +62,35 @@ class Described(unittest.TestCase):
         self.assertIn("-o", known[("waves", "make")])
         self.assertIn(("bem", "solve"), known)
 
+    def test_programs_of_their_own_tell_the_same(self):
+        """froude describes them without starting them; where they are built, their own help has the same options."""
+        known = dict(self.commands)
+        self.assertIn("--markers", known[("track",)])
+        self.assertIn("--reference-curves", known[("validate",)])
+        for program, words in (("froude-film", ("track",)), ("froude-film", ("calibrate",)), ("froude-film", ("film",)),
+                               ("froude-validate", ())):
+            path = words or ("validate",)
+            with self.subTest(path):
+                if not (PROGRAM.parent / program).exists():
+                    self.skipTest(f"{program} is not built")
+                own = subprocess.run([PROGRAM.parent / program, *words, "--help"], check=True, capture_output=True,
+                                     text=True).stdout
+                self.assertEqual(options_in(own) - COMMON, known[path] - COMMON)
+
+    def test_no_library_of_theirs_is_loaded(self):
+        """Of OpenCV and MPI froude knows nothing; the help of `track` is there where froude-film is not."""
+        needed = subprocess.run(["readelf", "-d", PROGRAM], check=True, capture_output=True, text=True).stdout
+        self.assertNotRegex(needed, r"NEEDED.*(opencv|libmpi)")
+        alone = self.folder / "alone"
+        alone.mkdir()
+        shutil.copy(PROGRAM, alone / "froude")
+        told = subprocess.run([alone / "froude", "track", "--help"], check=True, capture_output=True, text=True).stdout
+        self.assertIn("--roundness", told)
+        ran = subprocess.run([alone / "froude", "track", "a.avi", "-m", "a", "-o", "a.csv"], capture_output=True,
+                             text=True)
+        self.assertEqual(ran.returncode, 2)
+        self.assertIn("scripts/setup camera", ran.stderr)
+
     def test_bash_offers_every_command_and_option(self):
         for path, options in self.commands:
             if path:
@@ -70,6 +100,7 @@ class Described(unittest.TestCase):
 
     def test_bash_offers_values(self):
         self.assertEqual(completed(self.bash, "poincare", "--through", ""), ["up", "down", "both"])
+        self.assertEqual(completed(self.bash, "track", "--order", ""), ["left to right", "top to bottom"])
         self.assertEqual(completed(self.bash, "waves", "info", "--phase-of", "k"), ["k x - omega t"])
         scenes = completed(self.bash, "run", f"{SOURCE}/examples/moo")
         self.assertIn(f"{SOURCE}/examples/moored.toml", scenes)

@@ -35,6 +35,20 @@ rest_length = "as placed"
 run = { duration = "10 s", every = "0.05 s" }
 """
 
+# The same weight on a slider, whose power take-off is a spring and a damper.
+rack = spring[:spring.index("[[connector]]")].replace('free = ["surge"]', 'centre_of_gravity = "(0, 0, 0) m"') + """[[joint]]
+name = "rack"
+kind = "slider"
+between = ["ground", "m"]
+at = "(0, 0, 0) m"
+axis = "x"
+[joint.pto]
+stiffness = "8 N/m"
+damping = "0.8 N s/m"
+[ask]
+run = { duration = "6 s", every = "0.05 s" }
+"""
+
 
 def scene_of(text, numbers={}):
     with tempfile.TemporaryDirectory() as folder:
@@ -145,8 +159,8 @@ class Module(unittest.TestCase):
         self.assertIsInstance(caught.exception, ValueError)
         with self.assertRaisesRegex(froude.InputError, "no axial connector"):
             froude.run(scene_of(spring), controllers={"rope": lambda sample: 1.0})
-        with self.assertRaisesRegex(froude.InputError, "stiffness of nan N/m"):
-            froude.run(scene_of(spring), controllers={"spring": lambda sample: float("nan")})
+        with self.assertRaisesRegex(TypeError, "the controller of \"spring\" returned 'soft'; return a stiffness"):
+            froude.run(scene_of(spring), controllers={"spring": lambda sample: "soft"})
         with self.assertRaisesRegex(froude.InputError, "does not ask for RAOs"):
             froude.rao(scene_of(spring))
         with self.assertRaises(KeyError):
@@ -158,6 +172,91 @@ class Module(unittest.TestCase):
 
         with self.assertRaisesRegex(ZeroDivisionError, "of the controller"):
             froude.run(scene_of(spring), controllers={"spring": decide})
+
+    def test_a_run_that_a_controller_ends_is_kept(self):
+        def decide(sample):
+            if sample.time > 4.99:
+                raise ValueError("no idea")
+
+        with self.assertRaisesRegex(ValueError, "no idea") as caught:
+            froude.run(scene_of(spring), controllers={"spring": decide})
+        run = caught.exception.run
+        self.assertRegex(run.stopped, r'the controller of "spring" raised ValueError: no idea, at t = 5 s')
+        plain = froude.run(scene_of(spring))
+        np.testing.assert_array_equal(run["m.surge"], plain["m.surge"][:len(run.time)])
+        self.assertAlmostEqual(run.time[-1], 4.95)
+        ended = froude.run(scene_of(spring), controllers={"spring": lambda sample: float("nan")})
+        self.assertIn("stiffness of nan N/m", ended.stopped)
+
+    def test_a_controller_of_a_joint_is_the_power_take_off_that_it_computes(self):
+        scene = scene_of(rack)
+        own = froude.run(scene)
+
+        def decide(sample):
+            self.assertEqual((sample.joint, sample["rack.stroke"]), ("rack", sample.coordinate))
+            self.assertEqual(sample.velocity("m")[0], sample.rate)
+            return 8 * sample.coordinate + 0.8 * sample.rate, 8, 0.8
+
+        run = froude.run(scene, controllers={"ra*": decide})
+        self.assertEqual(run.stopped, "")
+        # Both solve the same equations, by Newton to 1e-10 of the loads or better.
+        np.testing.assert_allclose(run["rack.stroke"], own["rack.stroke"], rtol=0, atol=1e-10)
+        np.testing.assert_allclose(run["rack.pto_force"], own["rack.pto_force"], rtol=0, atol=1e-9)
+        self.assertLess(abs(run.energy["residual"]), 1e-3 * run.energy["turnover"])
+        # It began at rest, and what the controller gives is all that moves; powers are summed by trapezia.
+        self.assertAlmostEqual(run.energy["pto.controlled.supplied"], run.energy["kinetic"],
+                               delta=1e-3 * run.energy["turnover"])
+
+    def test_a_controller_of_a_joint_may_have_a_memory(self):
+        integral = []
+
+        def decide(sample):  # of the force that it set before
+            integral.append(sample.coordinate)
+            return 4 * sample.coordinate + 0.01 * sum(integral)
+
+        run = froude.run(scene_of(rack), controllers={"rack": decide})
+        self.assertEqual(len(integral), run.steps + 1)
+        every = run.steps // (len(run.time) - 1)
+        np.testing.assert_array_equal(integral[::every], run["rack.stroke"])
+        # What acts at a sample is what was set there.
+        expected = [4 * x + 0.01 * sum(integral[:i * every + 1]) for i, x in enumerate(run["rack.stroke"])]
+        np.testing.assert_allclose(run["rack.pto_force"], expected, rtol=1e-12, atol=1e-12)
+
+    def test_errors_of_controllers_of_joints(self):
+        def run(controllers):
+            return froude.run(scene_of(rack), controllers=controllers)
+
+        with self.assertRaisesRegex(froude.InputError, 'no axial connector, slider or hinge is called "gear"'):
+            run({"gear": lambda sample: 0.0})
+        with self.assertRaisesRegex(TypeError, r"returned \(1, 2\); return a force, or force, stiffness and damping"):
+            run({"rack": lambda sample: (1, 2)})
+        with self.assertRaisesRegex(froude.InputError, "did you mean \"rack.stroke\"") as caught:
+            run({"rack": lambda sample: sample["rack.strok"]})
+        self.assertEqual(len(caught.exception.run.time), 1)
+        kept = []
+        run({"rack": kept.append})
+        with self.assertRaisesRegex(froude.InputError, "after its controller had decided"):
+            kept[0].rate
+        both = rack.replace("[ask]", """[[connector]]
+name = "racket"
+between = ["m", "ground"]
+ends = ["(0, 0, 0) m", "(-1, 0, 0) m"]
+kind = "axial"
+stiffness = "8 N/m"
+rest_length = "as placed"
+[ask]""")
+        with self.assertRaisesRegex(froude.InputError, 'stands for connectors and for joints'):
+            froude.run(scene_of(both), controllers={"rack*": lambda sample: 0.0})
+        self.assertIn("force of inf", run({"rack": lambda sample: float("inf")}).stopped)
+
+    def test_a_tuned_float_takes_what_theory_has(self):
+        said = subprocess.run([sys.executable, str(examples / "reactive.py")], check=True, capture_output=True, text=True)
+        brake, most, limited = said.stdout.splitlines()
+        for line in (brake, most):
+            run, theory = (float(word) for word in re.findall(r"([0-9.]+) W", line))
+            self.assertAlmostEqual(run / theory, 1, delta=0.03)  # memory to 1e-2, and 0.1 W of what is printed
+        best = float(re.search(r"([0-9.]+) W", most)[1])
+        self.assertLess(float(re.search(r"([0-9.]+) W", limited)[1]), best)
 
     def test_the_example_runs(self):
         said = subprocess.run([sys.executable, str(examples / "control.py")], check=True, capture_output=True, text=True)

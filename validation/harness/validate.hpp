@@ -1,22 +1,11 @@
 #pragma once
 /// \file  `froude validate`: which cases are run, where their files are, and how the result is told.
-#include <filesystem>
-#include <optional>
-#include <string>
 #include <vector>
 
-#include "froude/commands.hpp"
+#include "froude/validate_arguments.hpp"
 #include "harness/case.hpp"
 
 namespace froude::validation {
-
-struct ValidateArguments {
-  std::vector<std::string> names;  ///< empty: all cases
-  std::optional<Path> folder;      ///< of the cases; default: installed or source
-  std::optional<Path> data;        ///< reference data; default FROUDE_REFERENCE_DATA, then ../shared/data
-  std::optional<Path> page;        ///< writes the page with pictures here
-  bool reference_curves = false;   ///< also the pictures that show curves of others
-};
 
 /// Returns 0 if every one of `cases` that is wanted and could run is within its limits, else 1.
 int validate(const std::vector<Case>& cases, const ValidateArguments& arguments, const Console& console);

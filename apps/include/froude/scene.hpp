@@ -18,6 +18,7 @@
 #include "fit/report.hpp"
 #include "froude/control.hpp"
 #include "froude/cost.hpp"
+#include "froude/joint_control.hpp"
 #include "froude/result.hpp"
 
 namespace froude {
@@ -54,9 +55,10 @@ class Scene {
   /// \throws hydro::InputError where the grammar knows no such key or refuses the value
   Scene with(const SceneValues& values) const;
 
-  /// [ask] run. `progress` is told the share of the steps that are done; `controls` rule connectors. Numerics that give
-  /// up end the run early: Run::stopped. \throws hydro::InputError
-  Run run(const std::function<void(double)>& progress = {}, const std::vector<Control>& controls = {}) const;
+  /// [ask] run. `progress` is told the share of the steps that are done; `controls` rule connectors, `of_joints`
+  /// sliders and hinges. Numerics that give up end the run early: Run::stopped. \throws hydro::InputError
+  Run run(const std::function<void(double)>& progress = {}, const std::vector<Control>& controls = {},
+          const std::vector<JointControl>& of_joints = {}) const;
   /// [ask] rao. \throws hydro::InputError, hydro::NumericsError
   Responses rao() const;
   /// [ask] field: the free surface about the bodies in one wave. \throws hydro::InputError, hydro::NumericsError

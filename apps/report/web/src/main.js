@@ -11,6 +11,7 @@ const KINDS = {
   run: 'run',
   rao: 'response amplitude operators',
   modes: 'free motions',
+  field: 'free surface',
   table: 'table',
   fit: 'fit',
   sweep: 'sweep',

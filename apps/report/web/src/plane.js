@@ -1,4 +1,4 @@
-// A plane with two scales on a canvas: phase plots, trajectories, measured against fitted, the maps of sweeps.
+// A plane with two scales on a canvas: phase plots, trajectories, measured against fitted, maps.
 import { styled } from './colours.js';
 import { h } from './dom.js';
 import { format } from './units.js';
@@ -33,8 +33,8 @@ export function extentOf(lists, room = 0.05) {
 
 /**
  * @param {HTMLElement} place
- * @param {{height?: number, equal?: boolean, read: () => {x: {label: string, range: number[]},
- *         y: {label: string, range: number[]}},
+ * @param {{height?: number | ((width: number) => number), equal?: boolean,
+ *          read: () => {x: {label: string, range: number[]}, y: {label: string, range: number[]}},
  *          paint: (pen: CanvasRenderingContext2D, at: {x: (v: number) => number, y: (v: number) => number}) => void,
  *          tell?: (x: number, y: number) => string}} what `paint` draws in the plane, `tell` says what is at a point
  */
@@ -49,7 +49,7 @@ export function plane(place, what) {
   function size() {
     const ratio = devicePixelRatio || 1,
       width = place.clientWidth || 500,
-      height = what.height ?? 320;
+      height = typeof what.height === 'function' ? what.height(width) : (what.height ?? 320);
     canvas.width = Math.round(width * ratio);
     canvas.height = Math.round(height * ratio);
     canvas.style.width = `${width}px`;

@@ -1,5 +1,6 @@
 // The parts of the report, by what each result is.
 import { h, folded } from './dom.js';
+import { extremesTable, fieldFigures, meansTable } from './fieldview.js';
 import { fitFigures, fitParts } from './fitview.js';
 import { modesTable, peaksTable, raoFigures, tableFigures } from './frequency.js';
 import { isLoad } from './quantity.js';
@@ -38,6 +39,11 @@ const SECTIONS = {
     ),
   ],
   modes: (modes) => [part('Free motions', modesTable(modes))],
+  field: (field) => [
+    part('Free surface', fieldFigures(field)),
+    part('Mean drift and power', meansTable(field)),
+    part('Highest and lowest', extremesTable(field)),
+  ],
   table: (result, id) => [part('Curves', grid(tableFigures(result, `${id}x`)))],
   fit: (fit) => [part('Values', fitParts(fit)), part('Measured and fitted', grid(fitFigures(fit)))],
   sweep: (sweep) => {

@@ -19,6 +19,12 @@ export function summary(result) {
     facts.push(['Record', `${format(begin)} to ${format(end)} s, ${samples} samples`]);
     facts.push(['Statistics and spectra', `${format(from)} to ${format(end)} s, ${counted} samples`]);
   }
+  if (result.kind === 'field') {
+    const heading = format((result.heading * 180) / Math.PI);
+    facts.push(['Wave', `${format((2 * Math.PI) / result.omega)} s, going to ${heading}°`]);
+    facts.push(['Bodies', result.bodies]);
+    facts.push(['Estimated error of the elevation', `${format(100 * result.error, 2)} % of the highest`]);
+  }
   if (result.kind === 'run' || result.kind === 'rao')
     facts.push(['Status', result.stopped ? 'stopped early' : 'complete']);
   return h(

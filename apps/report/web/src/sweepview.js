@@ -1,8 +1,7 @@
 // A sweep: curves along one axis, maps over two, and its cases.
-import { onScale, styled } from './colours.js';
 import { h, select, table } from './dom.js';
-import { csvOf, figure } from './figure.js';
-import { plane, ticksOf } from './plane.js';
+import { csvOf } from './figure.js';
+import { mapFigure } from './map.js';
 import { format, labelled } from './units.js';
 import { xyFigure } from './xyfigure.js';
 
@@ -49,7 +48,7 @@ export function sweepFigures(sweep) {
   const draw = () => {
     if (y === x) y = axes.find((a) => a !== x) ?? null;
     const canMap = y && isNumeric(x) && isNumeric(y);
-    place.replaceChildren(isMap && canMap ? mapFigure(sweep, of, x, y) : curvesFigure(sweep, of, x, y));
+    place.replaceChildren(isMap && canMap ? sweepMap(sweep, of, x, y) : curvesFigure(sweep, of, x, y));
   };
   const choices = h(
     'div',
@@ -113,90 +112,32 @@ function curvesFigure(sweep, of, x, y) {
   });
 }
 
-/** Borders between values: halfway, and as far outside. */
-export function bordersOf(values) {
-  const middle = values.slice(1).map((v, i) => (v + values[i]) / 2);
-  return [
-    values[0] - (middle[0] - values[0]),
-    ...middle,
-    values[values.length - 1] + (values[values.length - 1] - middle[middle.length - 1]),
-  ];
-}
-
-function mapFigure(sweep, of, x, y) {
+function sweepMap(sweep, of, x, y) {
   const grid = gridOf(sweep, of, x, y),
     finite = grid.means.flat().filter(Number.isFinite);
-  const low = Math.min(...finite),
-    high = Math.max(...finite);
-  const bx = bordersOf(grid.xs),
-    by = bordersOf(grid.ys),
-    share = (v) => (high > low ? (v - low) / (high - low) : 0.5);
-  let drawn = null;
-  const columns = [
-    { name: labelled(x.name, x.unit), values: grid.xs },
-    ...grid.ys.map((v, i) => ({
-      name: `${labelled(of.name, of.unit)} at ${y.name} ${v} ${y.unit}`,
-      values: grid.means[i],
-    })),
-  ];
-  const shell = figure({
+  const told = (axis, value) => `${axis.name} ${format(value)} ${axis.unit}`;
+  return mapFigure({
     title: labelled(of.name, of.unit),
-    names: [],
     note: [meansNote(grid), 'Fields without a colour have no case that is done.'].filter(Boolean).join(' '),
-    draw: () => {},
-    canvas: () => drawn.canvas,
-    reset: () => drawn.reset(),
-    csv: () => csvOf(columns),
-  });
-  const nearest = (all, v) =>
-    all.reduce((best, one, i) => (Math.abs(one - v) < Math.abs(all[best] - v) ? i : best), 0);
-  queueMicrotask(() => {
-    drawn = plane(shell.place, {
-      height: 380,
-      read: () => ({
-        x: { label: labelled(x.name, x.unit), range: [bx[0], bx[bx.length - 1]] },
-        y: { label: labelled(y.name, y.unit), range: [by[0], by[by.length - 1]] },
-      }),
-      paint: (pen, at) =>
-        grid.means.forEach((row, j) =>
-          row.forEach((v, i) => {
-            if (!Number.isFinite(v)) return;
-            pen.fillStyle = onScale(share(v));
-            const left = at.x(bx[i]),
-              top = at.y(by[j + 1]);
-            pen.fillRect(left, top, at.x(bx[i + 1]) - left + 0.5, at.y(by[j]) - top + 0.5);
-          }),
-        ),
-      tell: (px, py) => {
-        const i = nearest(grid.xs, px),
-          j = nearest(grid.ys, py);
-        const told = (axis, value) => `${axis.name} ${format(value)} ${axis.unit}`;
-        return `${told(x, grid.xs[i])}, ${told(y, grid.ys[j])}: ${format(grid.means[j][i])} ${of.unit}`;
-      },
-    });
-    drawn.draw();
-  });
-  shell.element.append(scaleBar(low, high, of.unit));
-  return shell.element;
-}
-
-function scaleBar(low, high, unit) {
-  const stops = [...Array(11).keys()].map((i) => onScale(i / 10)).join(',');
-  return h(
-    'div',
-    { class: 'scalebar' },
-    h('span', {
-      class: 'ramp',
-      style: `background:linear-gradient(to right,${stops});border-color:${styled('--grid')}`,
+    read: () => ({
+      x: { label: labelled(x.name, x.unit), values: grid.xs },
+      y: { label: labelled(y.name, y.unit), values: grid.ys },
+      value: (i, j) => grid.means[j][i],
+      low: Math.min(...finite),
+      high: Math.max(...finite),
+      name: of.name,
+      unit: of.unit,
     }),
-    h(
-      'div',
-      { class: 'marks' },
-      (high > low ? [low, ...ticksOf(low, high, 3).filter((v) => v > low && v < high), high] : [low]).map((v) =>
-        h('span', {}, `${format(v, 3)} ${unit}`),
-      ),
-    ),
-  );
+    csv: () =>
+      csvOf([
+        { name: labelled(x.name, x.unit), values: grid.xs },
+        ...grid.ys.map((v, i) => ({
+          name: `${labelled(of.name, of.unit)} at ${y.name} ${v} ${y.unit}`,
+          values: grid.means[i],
+        })),
+      ]),
+    tell: (i, j) => `${told(x, grid.xs[i])}, ${told(y, grid.ys[j])}: ${format(grid.means[j][i])} ${of.unit}`,
+  }).element;
 }
 
 const MOST_ROWS = 500;
