@@ -5,6 +5,7 @@
 #include "compile/hulls.hpp"
 #include "computing.hpp"
 #include "fit/report.hpp"
+#include "fit/search_watch.hpp"
 #include "froude/commands.hpp"
 #include "hydro/base/error.hpp"
 
@@ -221,11 +222,14 @@ void add_fit(py::module_& m) {
       .def_readonly("cautions", &Report::cautions, "What is not to be trusted; a sentence each.");
   m.def(
       "fit",
-      [](const HeldScene& held) {
-        Computing computing("fit", py::none());
-        return told(computing.of(held, [](const Scene& scene) { return scene.fit(); }));
+      [](const HeldScene& held, const py::object& progress) {
+        Computing computing("fit", progress);
+        return told(computing.of(held, [&](const Scene& scene) {
+          const ::fit::SearchWatch searches([&](double share) { computing.done(share); });
+          return scene.fit();
+        }));
       },
-      py::arg("scene"), "froude.fit");
+      py::arg("scene"), py::arg("progress"), "froude.fit");
 }
 
 /// What `froude export --json` tells.

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "fit/search_watch.hpp"
 #include "hydro/base/dense.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/base/look_up.hpp"
@@ -139,6 +140,28 @@ ceres::Solver::Options solver_options(const StopWhen& stop) {
   return options;
 }
 
+/// Tells whoever watches this thread how far a search is.
+class ToldIterations : public ceres::IterationCallback {
+ public:
+  explicit ToldIterations(const StopWhen& stop) : stop_(stop) {}
+  ceres::CallbackReturnType operator()(const ceres::IterationSummary& now) override {
+    if (now.iteration > 0) SearchWatch::current()->come_to(std::max(decades(now), spent(now)));
+    return ceres::SOLVER_CONTINUE;
+  }
+
+ private:
+  double decades(const ceres::IterationSummary& now) const {
+    const double change = std::abs(now.cost_change) / std::max(now.cost, std::numeric_limits<double>::min());
+    if (!now.step_is_successful || !(change < 1)) return 0;
+    return std::min(1.0,
+                    std::log(std::max(change, std::numeric_limits<double>::min())) / std::log(stop_.cost_change_below));
+  }
+  double spent(const ceres::IterationSummary& now) const {
+    return std::min(1.0, static_cast<double>(now.iteration) / std::max(1, stop_.iterations_reach));
+  }
+  const StopWhen& stop_;
+};
+
 /// Runs Ceres from x, some parameters held, and fills the first half of the report. \return where it ended
 std::vector<double> search(const ResidualModel& model, const Eigen::VectorXd& x, const std::vector<int>& held,
                            const StopWhen& stop, SearchReport& report) {
@@ -159,7 +182,11 @@ std::vector<double> search(const ResidualModel& model, const Eigen::VectorXd& x,
   ceres::Solver::Summary summary;
   {
     const QuietLogging quiet;
-    ceres::Solve(solver_options(stop), &problem, &summary);
+    ceres::Solver::Options options = solver_options(stop);
+    ToldIterations told(stop);
+    if (SearchWatch::current() != nullptr) options.callbacks.push_back(&told);
+    ceres::Solve(options, &problem, &summary);
+    if (SearchWatch::current() != nullptr) SearchWatch::current()->end_search();
   }
   // Where every parameter is held there is nothing to iterate.
   report.iterations = std::max(0, static_cast<int>(summary.iterations.size()) - 1);

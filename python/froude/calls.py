@@ -281,13 +281,16 @@ def cost(scene: AnyScene, *, tolerance: Optional[float] = None, measure: str = "
         return _froude.cost(_scene(scene), tolerance, measure, repeat_for, told)
 
 
-def fit(scene: AnyScene) -> _froude.Fit:
+def fit(scene: AnyScene, *, progress: Progress = None) -> _froude.Fit:
     """What measurements say of the coefficients of a model.
 
     Parameters
     ----------
     scene : Scene or path
         A scene with a ``[model]``, as docs/guide/fit.md describes it.
+    progress : bool or function, optional
+        As of `run`. How many searches a fit takes shows only as they come: each fills half of what is left. Fits of
+        linear models have one, which is over at once.
 
     Returns
     -------
@@ -300,8 +303,11 @@ def fit(scene: AnyScene) -> _froude.Fit:
         For a scene or data that cannot be.
     NumericsError
         Where no value may be told, with the reason.
+    KeyboardInterrupt
+        At Ctrl-C, between two trials; nothing is kept.
     """
-    return _froude.fit(_scene(scene))
+    with telling(progress) as told:
+        return _froude.fit(_scene(scene), told)
 
 
 def sweep(study: FileName, folder: Optional[FileName] = None, *, threads: Optional[int] = None, retry: bool = False,
