@@ -105,7 +105,7 @@ class Run(Validate):
             text = self.answer(*arguments)
             self.assertIn("Usage: froude validate", text)
             self.assertIn("froude validate ", text.split("Example")[1])
-            for option in ("--list", "--folder", "--data", "--page", "--reference-curves", "--json", "--quiet"):
+            for option in ("--list", "--folder", "--data", "--page", "--reference-curves"):
                 self.assertIn(option, text)
 
     def test_status_is_zero_within_the_limits_and_one_outside(self):
