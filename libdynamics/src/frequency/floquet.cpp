@@ -182,7 +182,7 @@ MatrixXd by_steps(const PeriodicWithMemory& system, Index n, double period_s, in
 
 MatrixXd monodromy(const PeriodicWithMemory& system, double period_s, double tolerance) {
   hydro::require(std::isfinite(period_s) && period_s > 0, "a period must be positive, got {} s", period_s);
-  constexpr int fewest = 8, most = 4096;
+  constexpr int fewest = 8, most = 16384;  // of a motion that grows by 1e141 in a period 4096 did not do
   // Halved steps change Φ by a 2⁻¹⁰ of what those before them did, and by a 2⁻⁵ where states are fast beside a step,
   // for which the order is five: that is supposed first, and then seen.
   constexpr double least = 1.0 / 1024, usual = 1.0 / 32;
