@@ -131,7 +131,7 @@ TEST(Floquet, OfAMemoryRefusesPeriodsAndTellsWhereStepsAreTooFew) {
               ThrowsMessage<hydro::InputError>(HasSubstr("a period must be positive, got 0 s")));
   // No doubles tell a change of 1e-17.
   EXPECT_THAT([&] { monodromy(system, two_pi, 0); },
-              ThrowsMessage<hydro::NumericsError>(HasSubstr("4096 steps of a period of 6.28319 s do not tell")));
+              ThrowsMessage<hydro::NumericsError>(HasSubstr("16384 steps of a period of 6.28319 s do not tell")));
 }
 
 }  // namespace

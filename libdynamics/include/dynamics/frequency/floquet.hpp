@@ -33,8 +33,8 @@ struct PeriodicWithMemory {
 /// The same matrix, of (x, z), shape (n + z, n + z). By Gauss's collocation of order ten, in which the states of the
 /// memory are eliminated; steps are halved until the next change would be less than the tolerance of the matrix's
 /// norm, as the last two changes tell, and the last is taken. Fast states of the memory cost no steps. \throws
-/// hydro::InputError unless T is finite and > 0; hydro::NumericsError if 4096 steps are too few, or a motion leaves the
-/// doubles
+/// hydro::InputError unless T is finite and > 0; hydro::NumericsError if 16384 steps are too few, or a motion leaves
+/// the doubles
 Eigen::MatrixXd monodromy(const PeriodicWithMemory& system, double period_s, double tolerance);
 /// \throws as monodromy()
 Eigen::VectorXcd floquet_multipliers(const PeriodicWithMemory& system, double period_s, double tolerance);
