@@ -185,8 +185,7 @@ std::string page(const std::vector<Paid>& list, const std::vector<Peer>& peers, 
                        p.price.tolerance ? fmt::format("{:.1e}", p.estimate) : "", p.error, p.seconds);
   out +=
       "\nThe meshes of generated-bem, as given, without a tolerance, all frequencies, and the added mass at an "
-      "infinite "
-      "one. The peer's times are of another day and were not measured beside these; one thread too.\n\n"
+      "infinite one. The peer's times are of another day and were not measured beside these; one thread too.\n\n"
       "| hulls | panels | panels there | frequencies | headings | time [s] | a panel code, another day [s] | ratio |\n"
       "| --- | --- | --- | --- | --- | --- | --- | --- |\n";
   for (const Peer& p : peers)
