@@ -69,7 +69,7 @@ TEST(Outlines, OfCylindersAreCirclesWhereTheSceneHasThem) {
       froude_test::parse(froude_test::water +
                          "[[body]]\nname = \"b\"\nposition = \"(10, 20, -1) m\"\nmass = \"1 t\"\nfree = \"heave\"\n"
                          "[body.hydrodynamics]\nexcitation = true\n[body.hydrodynamics.cylinders]\n"
-                         "at = \"(1, 2, 0) m\"\ndiameter = \"6 m\"\ndraught = \"5 m\"\n"
+                         "at = \"(1, 2, 1) m\"\ndiameter = \"6 m\"\ndraught = \"5 m\"\n"
                          "frequencies = \"1 rad/s .. 2 rad/s, 2 values\"\n"
                          "[[body]]\nname = \"no_waves\"\nmass = \"1 t\"\nfree = \"heave\"\n[ask]\n"
                          "field = { omega = \"1 rad/s\", bodies = \"held\", x = \"0 m .. 1 m, 2 values\", "
