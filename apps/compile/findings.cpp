@@ -23,6 +23,12 @@ bool looks_at_matrices(const Finding& f) {
   return std::find(of_matrices.begin(), of_matrices.end(), f.check) != of_matrices.end();
 }
 
+bool has_idle_modes(const TakenCoefficients& taken) {
+  return std::any_of(taken.modes.begin(), taken.modes.end(), [](const std::array<bool, 6>& modes) {
+    return std::find(modes.begin(), modes.end(), false) != modes.end();
+  });
+}
+
 /// A, B and X without the modes that have no effect.
 Coefficients without_idle_modes(Coefficients c, const TakenCoefficients& taken) {
   for (std::size_t b = 0; b < taken.modes.size(); ++b)
@@ -74,7 +80,7 @@ std::vector<Finding> findings_in(const Coefficients& c, const TakenCoefficients&
                            (f.entry && !(is_taken(((*f.entry)[0] - 1) / 6) && is_taken(((*f.entry)[1] - 1) / 6))));
   };
   if (!all_bodies) replace_errors(findings, hydro::potential::check(of_bodies), is_elsewhere);
-  if (has_error(findings))
+  if (has_error(findings) && (!all_bodies || has_idle_modes(taken)))
     replace_errors(findings, hydro::potential::check(without_idle_modes(of_bodies, taken)),
                    [](const Finding& f) { return looks_at_matrices(f) || f.check == of_matrices_and_excitation; });
   return findings;

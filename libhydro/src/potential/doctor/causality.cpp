@@ -14,26 +14,51 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-/// What the comparison is made with: A∞ and the tail of B fitted to A, so that it does not hang on the stated A∞.
+/// What the comparison is made with: A∞ and the tail of B fitted to A, so that it does not hang on the stated A∞. Modes
+/// are compared each with itself, so the tables hold a column of diagonal entries a frequency.
 struct Causal {
   const Patient& p;
-  radiation::DampingTable given;
-  radiation::ExtrapolatedDamping fitted;
+  std::vector<Eigen::MatrixXd> A;
+  radiation::DampingTable given, fitted;
+  Eigen::MatrixXd A_inf;
   std::vector<std::size_t> samples;  // where A and B are compared
 };
 
 /// A fit with fewer frequencies would follow anything.
 constexpr std::size_t fewest_frequencies = 10;
 
+std::vector<Eigen::MatrixXd> diagonals(const std::vector<Eigen::MatrixXd>& matrices) {
+  std::vector<Eigen::MatrixXd> out;
+  for (const auto& m : matrices) out.emplace_back(m.diagonal());
+  return out;
+}
+
+/// Diagonal block of body b at every frequency.
+std::vector<Eigen::MatrixXd> of_body(const std::vector<Eigen::MatrixXd>& matrices, Index b) {
+  std::vector<Eigen::MatrixXd> out;
+  for (const auto& m : matrices) out.emplace_back(m.block<6, 6>(6 * b, 6 * b));
+  return out;
+}
+
+/// Tails are those of each body by itself: what other bodies do to it is no part of its diagonal entries.
+void extrapolate(Causal& f) {
+  f.A_inf.resize(f.p.c.modes(), 1);
+  for (Index b = 0; b < f.p.c.bodies(); ++b) {
+    const auto one = radiation::extrapolated({f.p.c.omega, of_body(f.p.c.B, b)}, of_body(f.p.c.A, b), std::nullopt);
+    if (b == 0) f.fitted = {one.table.omega, std::vector(one.table.omega.size(), f.A_inf)};
+    for (std::size_t w = 0; w < one.table.B.size(); ++w) f.fitted.B[w].middleRows<6>(6 * b) = one.table.B[w].diagonal();
+    f.A_inf.middleRows<6>(6 * b) = one.A_inf.diagonal();
+  }
+}
+
 Causal causal(const Patient& p) {
-  radiation::DampingTable table{p.c.omega, p.c.B};
-  auto fitted = radiation::extrapolated(table, p.c.A, std::nullopt);
-  std::vector<std::size_t> samples;
+  Causal f{p, diagonals(p.c.A), {p.c.omega, diagonals(p.c.B)}, {}, {}, {}};
+  extrapolate(f);
   // Forty places tell as much as four hundred; near the end of the table what is beyond it decides.
   const std::size_t stride = std::max<std::size_t>(1, p.c.omega.size() / 40);
   for (std::size_t w = 1; w < p.c.omega.size() && p.c.omega[w] < 0.6 * p.c.omega.back(); w += stride)
-    samples.push_back(w);
-  return {p, std::move(table), std::move(fitted), std::move(samples)};
+    f.samples.push_back(w);
+  return f;
 }
 
 /// Largest less smallest A_ii(ω): what causality explains. A twentieth of A itself is added, which no mesh resolves.
@@ -69,8 +94,8 @@ Misfit largest_rms(const Causal& f, Error error) {
 Misfit added_mass_from_damping(const Causal& f) {
   const VectorXd size = variation_of_A(f.p);
   return largest_rms(f, [&](std::size_t w) {
-    const Eigen::MatrixXd A = radiation::added_mass_above_limit(f.fitted.table, f.p.c.omega[w]) + f.fitted.A_inf;
-    return VectorXd((A - f.p.c.A[w]).diagonal().cwiseQuotient(size.cwiseMax(1e-300)));
+    const VectorXd A = radiation::added_mass_above_limit(f.fitted, f.p.c.omega[w]) + f.A_inf;
+    return VectorXd((A - f.A[w]).cwiseQuotient(size.cwiseMax(1e-300)));
   });
 }
 
@@ -78,9 +103,9 @@ Misfit added_mass_from_damping(const Causal& f) {
 Misfit damping_from_added_mass(const Causal& f) {
   return largest_rms(f, [&](std::size_t w) {
     const double omega = f.p.c.omega[w];
-    const Eigen::MatrixXd B = radiation::damping_from_added_mass(f.p.c.omega, f.p.c.A, f.fitted.A_inf, omega);
+    const VectorXd B = radiation::damping_from_added_mass(f.p.c.omega, f.A, f.A_inf, omega);
     const VectorXd size = f.p.size_of_B + 0.1 * omega * f.p.size_of_A;
-    return VectorXd((B - f.p.c.B[w]).diagonal().cwiseQuotient(size.cwiseMax(1e-300)));
+    return VectorXd((B - f.given.B[w]).cwiseQuotient(size.cwiseMax(1e-300)));
   });
 }
 
@@ -111,7 +136,7 @@ void look_at_limit(const Causal& f, Findings& out) {
   }
   Misfit worst;
   for (Index i = 0; i < f.p.c.modes(); ++i)
-    if (const double off = std::abs((*f.p.c.A_inf)(i, i) - f.fitted.A_inf(i, i)) / f.p.size_of_A(i); off > worst.value)
+    if (const double off = std::abs((*f.p.c.A_inf)(i, i) - f.A_inf(i)) / f.p.size_of_A(i); off > worst.value)
       worst = {off, i};
   Finding finding{.check = "A(inf) by Ogilvie",
                   .where = entry_text("A", worst.mode, worst.mode, "infinite frequency"),
@@ -135,18 +160,18 @@ struct Areas {
 };
 
 Areas areas(const Causal& f) {
-  const auto& t = f.fitted.table;
+  const auto& t = f.fitted;
   Areas a{VectorXd::Zero(f.p.c.modes()), VectorXd::Zero(f.p.c.modes()), {}};
   VectorXd last = VectorXd::Zero(f.p.c.modes());
   double omega = 0;
   for (std::size_t w = 0; w < t.omega.size(); ++w) {
-    const VectorXd here = t.B[w].diagonal().cwiseAbs();
+    const VectorXd here = t.B[w].cwiseAbs();
     (w < f.given.omega.size() ? a.inside : a.beyond) += (t.omega[w] - omega) * (last + here) / 2;
     last = here;
     omega = t.omega[w];
   }
   // Between a straight line from nothing and the first value all the way down.
-  a.before = f.given.omega.front() * f.given.B.front().diagonal().cwiseAbs() / 2;
+  a.before = f.given.omega.front() * f.given.B.front().cwiseAbs() / 2;
   return a;
 }
 
@@ -213,7 +238,7 @@ void look_at_low_tail(const Causal& f, const Areas& a, Findings& out) {
 }  // namespace
 
 void check_causality(const Patient& p, Findings& out) {
-  const Causal f = p.c.omega.size() >= fewest_frequencies ? causal(p) : Causal{p, {}, {}, {}};
+  const Causal f = p.c.omega.size() >= fewest_frequencies ? causal(p) : Causal{p, {}, {}, {}, {}, {}};
   if (f.samples.empty() || p.size_of_B.isZero(0)) {
     for (const char* check : {"Kramers-Kronig", "A(inf) by Ogilvie", "low-frequency tail", "high-frequency tail"})
       out.push_back(not_looked_at(check, p.size_of_B.isZero(0) ? "there is no damping" : "too few frequencies"));

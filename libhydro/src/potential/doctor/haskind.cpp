@@ -5,6 +5,8 @@
 #include <complex>
 #include <numbers>
 
+#include <Eigen/SparseCore>
+
 #include "doctor.hpp"
 #include "hydro/waves/dispersion.hpp"
 #include "potential/readers.hpp"
@@ -17,11 +19,14 @@ using Eigen::Index;
 using std::numbers::pi;
 constexpr double same_angle = 1e-4;  // rad: degrees written with two decimals
 
+/// What a mirror or a turn of the array makes of modes: a few entries a row, however many bodies there are.
+using MapOfModes = Eigen::SparseMatrix<double>;
+
 /// Excitation at one heading, from the data or by a mirror.
 struct Heading {
   double angle;        // 0 … 2π
   std::size_t source;  // index in the data
-  Eigen::MatrixXd by;  // X(angle) = by · X(source); empty: as it is
+  MapOfModes by;       // X(angle) = by · X(source); empty: as it is
 };
 
 double wrapped(double angle) {
@@ -34,13 +39,13 @@ bool holds(const std::vector<Heading>& list, double angle) {
                      [&](const Heading& h) { return std::abs(std::remainder(h.angle - angle, 2 * pi)) < same_angle; });
 }
 
-/// The matrix that a mirror of the array makes of modes: body b goes to its image, modes keep or change sign. Empty if
-/// the bodies are not at mirrored places. (P65)
-std::optional<Eigen::MatrixXd> mirror(const Coefficients& c, bool across_x) {
+/// What a mirror of the array makes of modes: body b goes to its image, modes keep or change sign. Empty if the bodies
+/// are not at mirrored places. (P65)
+std::optional<MapOfModes> mirror(const Coefficients& c, bool across_x) {
   // x → −x turns surge, pitch and yaw; y → −y turns sway, roll and yaw.
-  const Eigen::VectorXd sign = across_x ? (Eigen::VectorXd(6) << -1, 1, 1, 1, -1, -1).finished()
-                                        : (Eigen::VectorXd(6) << 1, -1, 1, -1, 1, -1).finished();
-  Eigen::MatrixXd P = Eigen::MatrixXd::Zero(c.modes(), c.modes());
+  const std::array<double, 6> sign =
+      across_x ? std::array<double, 6>{-1, 1, 1, 1, -1, -1} : std::array<double, 6>{1, -1, 1, -1, 1, -1};
+  MapOfModes P(c.modes(), c.modes());
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   for (const auto& b : c.body) {
     if (!b.reference_point && c.bodies() > 1) return std::nullopt;
@@ -55,17 +60,18 @@ std::optional<Eigen::MatrixXd> mirror(const Coefficients& c, bool across_x) {
       if ((c.body[static_cast<std::size_t>(q)].reference_point.value_or(Eigen::Vector3d::Zero()) - image).norm() < 1e-3)
         partner = q;
     if (partner < 0) return std::nullopt;
-    P.block<6, 6>(6 * partner, 6 * b) = sign.asDiagonal();
+    for (int m = 0; m < 6; ++m) P.insert(6 * partner + m, 6 * b + m) = sign[static_cast<std::size_t>(m)];
   }
   return P;
 }
 
 /// Whether the data are unchanged by the mirror, within what a mesh leaves. Kernels of a symmetric array must be; that
 /// the array is symmetric does not follow strictly, but nothing else in the data could show that it is not. (P65)
-bool is_symmetric_under(const Eigen::MatrixXd& P, const Patient& p) {
+bool is_symmetric_under(const MapOfModes& P, const Patient& p) {
+  const MapOfModes back = P.transpose();
   const auto unchanged = [&](const std::vector<Eigen::MatrixXd>& matrices, const Eigen::VectorXd& s) {
     for (const auto& M : matrices) {
-      const Eigen::MatrixXd d = M - P * M * P.transpose();
+      const Eigen::MatrixXd half = P * M, d = M - half * back;
       for (Index i = 0; i < d.rows(); ++i)
         for (Index j = 0; j < d.cols(); ++j)
           if (std::abs(d(i, j)) > usual_asymmetry * size_of_entry(s, i, j)) return false;
@@ -90,7 +96,7 @@ bool is_of_revolution(const Patient& p) {
   };
   const double yaw = usual(5), heave = usual(2);
   const double length = std::cbrt(heave / p.c.water.density);
-  return yaw < 1e-3 * heave * length * length && is_symmetric_under(turn, p);
+  return yaw < 1e-3 * heave * length * length && is_symmetric_under(turn.sparseView(), p);
 }
 
 /// X at eight headings from that at one, for a body of revolution: no harmonic of X in β is higher than the first.
@@ -101,7 +107,7 @@ std::vector<Heading> turned_about(const Patient& p) {
     const double angle = 2 * pi * static_cast<double>(h) / count, turn = angle - p.c.heading.front();
     Eigen::MatrixXd R = Eigen::MatrixXd::Identity(6, 6);
     for (const Index i : {0, 3}) R.block<2, 2>(i, i) << std::cos(turn), -std::sin(turn), std::sin(turn), std::cos(turn);
-    list.push_back({angle, 0, R});
+    list.push_back({angle, 0, R.sparseView()});
   }
   return list;
 }
@@ -109,11 +115,11 @@ std::vector<Heading> turned_about(const Patient& p) {
 /// Headings of the data and their images, if they are evenly spread over the circle; else empty.
 std::vector<Heading> circle(const Patient& p) {
   if (is_of_revolution(p)) return turned_about(p);
-  std::array<std::optional<Eigen::MatrixXd>, 2> across{mirror(p.c, true), mirror(p.c, false)};
+  std::array<std::optional<MapOfModes>, 2> across{mirror(p.c, true), mirror(p.c, false)};
   for (auto& m : across)
     if (m && !is_symmetric_under(*m, p)) m.reset();
   std::vector<Heading> list;
-  const auto add = [&](double angle, std::size_t source, const Eigen::MatrixXd& by) {
+  const auto add = [&](double angle, std::size_t source, const MapOfModes& by) {
     if (!holds(list, angle)) list.push_back({wrapped(angle), source, by});
   };
   const auto& beta = p.c.heading;
@@ -140,13 +146,16 @@ double haskind_factor(const Patient& p, std::size_t w) {
 /// B of (P64) at one frequency by the trapezium rule over every `stride`-th heading.
 Eigen::MatrixXd damping_from_excitation(const Patient& p, const std::vector<Heading>& list, std::size_t w,
                                         std::size_t stride) {
-  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(p.c.modes(), p.c.modes());
+  // The real part of X X* of one heading is that of the two vectors of its parts.
+  Eigen::MatrixXd parts(p.c.modes(), static_cast<Index>(2 * ((list.size() + stride - 1) / stride)));
+  Index at = 0;
   for (std::size_t h = 0; h < list.size(); h += stride) {
-    Eigen::VectorXcd X = p.c.X[list[h].source].col(static_cast<Index>(w));
-    if (list[h].by.size() > 0) X = list[h].by.cast<std::complex<double>>() * X;
-    sum += (X * X.adjoint()).real();
+    const auto X = p.c.X[list[h].source].col(static_cast<Index>(w));
+    for (const Eigen::VectorXd& part : {Eigen::VectorXd(X.real()), Eigen::VectorXd(X.imag())})
+      parts.col(at++) = list[h].by.size() > 0 ? Eigen::VectorXd(list[h].by * part) : part;
   }
-  return haskind_factor(p, w) * 2 * pi * static_cast<double>(stride) / static_cast<double>(list.size()) * sum;
+  const double step = 2 * pi * static_cast<double>(stride) / static_cast<double>(list.size());
+  return haskind_factor(p, w) * step * parts * parts.transpose();
 }
 
 /// One comparison of a damping from excitation with the one in the data.

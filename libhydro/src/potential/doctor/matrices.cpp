@@ -68,7 +68,6 @@ constexpr double impossible_asymmetry = 0.3;
 Finding symmetry_finding(const char* name, const char* kind, const Series& series, const Eigen::VectorXd& s,
                          bool within_bodies) {
   const Worst worst = worst_asymmetry(series, s, within_bodies);
-  const Pair pair = worst_pair(series, s, within_bodies);
   Finding f{.check = fmt::format("{} of {}", kind, name),
             .where = worst.value > 0 ? entry_text(name, worst.i, worst.j, worst.at) : std::string(name),
             .message = fmt::format("largest |{0}_ij − {0}_ji| is {1:.2g} of sqrt({0}_ii {0}_jj); up to {2} is usual",
@@ -81,6 +80,7 @@ Finding symmetry_finding(const char* name, const char* kind, const Series& serie
   f.why = within_bodies ? "the fluid's reaction has a potential (P60): what is not symmetric creates or destroys energy"
                         : "what body i does to body j equals what j does to i (P60)";
   f.remedy = "compute on a finer mesh, or check that rows and columns were not mixed up; `froude bem heal` averages";
+  const Pair pair = worst_pair(series, s, within_bodies);
   if (pair.opposite || pair.difference > impossible_asymmetry) {
     f.severity = Severity::error;
     f.where = entry_text(name, pair.i, pair.j, "most frequencies");

@@ -57,17 +57,19 @@ Coefficients without_interaction(Coefficients c) {
 Coefficients about(Coefficients c, std::span<const Eigen::Vector3d> from, std::span<const Eigen::Vector3d> to) {
   require(from.size() == c.body.size() && to.size() == c.body.size(), "{}: {} reference points are given for {} bodies",
           c.source, std::min(from.size(), to.size()), c.bodies());
-  // ξ(from) = T ξ(to), hence loads by Tᵀ and matrices by Tᵀ · T. (P4)
-  Eigen::MatrixXd T = Eigen::MatrixXd::Zero(c.modes(), c.modes());
+  // ξ(from) = T ξ(to), hence loads by Tᵀ and matrices by Tᵀ · T, a block of T a body. (P4)
   for (std::size_t i = 0; i < c.body.size(); ++i) {
-    const auto row = 6 * static_cast<Eigen::Index>(i);
-    T.block<6, 6>(row, row) = rigid_shift(from[i] - to[i]);
+    const auto at = 6 * static_cast<Eigen::Index>(i);
+    const Matrix6 T = rigid_shift(from[i] - to[i]);
+    const auto move = [&](Eigen::MatrixXd& m) {
+      m.middleRows<6>(at) = (T.transpose() * m.middleRows<6>(at)).eval();
+      m.middleCols<6>(at) = (m.middleCols<6>(at) * T).eval();
+    };
+    for_each_radiation_matrix(c, move);
+    if (c.C) move(*c.C);
+    for (auto& X : c.X) X.middleRows<6>(at) = (T.transpose().cast<std::complex<double>>() * X.middleRows<6>(at)).eval();
     c.body[i].reference_point = to[i];
   }
-  const auto move = [&](Eigen::MatrixXd& m) { m = T.transpose() * m * T; };
-  for_each_radiation_matrix(c, move);
-  if (c.C) move(*c.C);
-  for (auto& X : c.X) X = T.transpose().cast<std::complex<double>>() * X;
   return c;
 }
 
