@@ -2,6 +2,7 @@
 /// \file  From waves that pass between groups to A, B and X of bodies, and what waves far away say of them (C3), (C13).
 /// Not installed.
 #include "groups.hpp"
+#include "symmetry.hpp"
 
 namespace hydro::cylinders {
 
@@ -24,14 +25,15 @@ struct Question {
   const VerticalModes& modes;
   const std::vector<double>& heading;
   const Eigen::MatrixXd& motion;  ///< (6 cylinders, 6 bodies): velocities of the cylinders when the bodies move
-  double across;                  ///< between the axes of the farthest two cylinders, m
-  int orders;                     ///< of partial waves
+  const SolvedMotions& solved;
+  double across;  ///< between the axes of the farthest two cylinders, m
+  int orders;     ///< of partial waves
   Equations equations = Equations::automatic;
 };
 OneFrequency answers(const Groups& groups, const Question& question);
 
 /// A as ω → ∞, of groups in the modes of that limit.
 Eigen::MatrixXd added_mass_at_infinity(const Groups& groups, const Water& water, const Eigen::MatrixXd& motion,
-                                       Equations equations);
+                                       const SolvedMotions& solved, Equations equations);
 
 }  // namespace hydro::cylinders

@@ -57,7 +57,6 @@ double cube(double x) { return x * x * x; }
 constexpr double compression = 0.4;  // unknowns left of the partial waves within groups, as seen
 constexpr double number = sizeof(Complex);
 constexpr int most_steps = 100;
-constexpr Eigen::Index columns_at_a_time = 48;
 
 /// Errors of many pairs have random signs.
 double weakest_passage(double precision, std::size_t cylinders) {

@@ -56,6 +56,9 @@ Grouping choose_grouping(const std::vector<Cylinder>& cylinders, const std::vect
                          const Lattice* lattice, const VerticalModes& modes, double threshold, double columns,
                          double steps, Equations wanted);
 
+/// Motions and headings that an iteration takes side by side.
+inline constexpr Eigen::Index columns_at_a_time = 48;
+
 /// What arrives at the cylinders, of waves (columns first) and of motions (columns after).
 struct Arrived {
   Amplitudes a;  ///< in the partial waves between groups

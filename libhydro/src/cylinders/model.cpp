@@ -83,6 +83,7 @@ Model::Model(const std::vector<CylinderBody>& bodies, const Water& water, const 
     }
     column += 6;
   }
+  solved_ = SolvedMotions(cylinders_, type_of_, motion_, [](std::size_t, const Eigen::Matrix2d&) { return true; });
   for (const double w : omega)
     orders_ = std::max(orders_, grouping(modes_that_may_couple(cylinders_, water_, w)).within.highest_order() + 1);
   orders_ = std::max(orders_, grouping(modes_that_may_couple(cylinders_, water_, infinite)).within.highest_order() + 1);
@@ -136,7 +137,8 @@ VerticalModes Model::modes(double omega) const {
 
 Grouping Model::grouping(const VerticalModes& modes) const {
   return choose_grouping(cylinders_, type_of_, lattice(), modes, resolution_.threshold,
-                         static_cast<double>(motion_.cols()), expected_steps(modes, cylinders_), resolution_.equations);
+                         static_cast<double>(solved_.columns().size()), expected_steps(modes, cylinders_),
+                         resolution_.equations);
 }
 
 // The sums over the depth below cylinders that stand above the bed, as seen.
@@ -155,7 +157,7 @@ ModelCost Model::cost(double omega, double headings) const {
   constexpr double single = 3e6, with_column = 3e7, term = 1e3, number = 16, term_bytes = 400;
   const VerticalModes depth_modes = modes_that_may_couple(cylinders_, water_, omega);
   const Grouping g = grouping(depth_modes);
-  const double motions = static_cast<double>(motion_.cols()), columns = motions + headings;
+  const double motions = static_cast<double>(solved_.columns().size()), columns = motions + headings;
   const EquationsCost between = equations_cost(g, cylinders_.size(), lattice(), columns, resolution_.equations);
   const EquationsCost within = compounds_cost(g, cylinders_, type_of_);
   const double size = static_cast<double>(cylinders_.size()) * g.between.count();
@@ -198,9 +200,9 @@ OneFrequency Model::at(double omega, const std::vector<double>& heading) const {
   const Grouping kept = grouping(depth_modes);
   require_coupling(kept.within, "cylinders", omega);
   const auto of_type = scatterers(depth_modes, kept.within);
-  OneFrequency result = answers(
-      groups(of_type, depth_modes, kept),
-      {omega, water_, depth_modes, heading, motion_, distance_across(cylinders_), orders_, resolution_.equations});
+  OneFrequency result =
+      answers(groups(of_type, depth_modes, kept), {omega, water_, depth_modes, heading, motion_, solved_,
+                                                   distance_across(cylinders_), orders_, resolution_.equations});
   result.partial_waves = kept.within.count();
   result.left_out = kept.within.left_out;
   return result;
@@ -210,7 +212,8 @@ MatrixXd Model::added_mass_at_infinity() const {
   const VerticalModes depth_modes = modes(infinite);
   const Grouping kept = grouping(depth_modes);
   const auto of_type = scatterers(depth_modes, kept.within);
-  return cylinders::added_mass_at_infinity(groups(of_type, depth_modes, kept), water_, motion_, resolution_.equations);
+  return cylinders::added_mass_at_infinity(groups(of_type, depth_modes, kept), water_, motion_, solved_,
+                                           resolution_.equations);
 }
 
 double Model::difference(const Model& other, double omega) const {

@@ -100,6 +100,7 @@ class Model {
   std::vector<Cylinder> cylinders_;
   std::optional<Lattice> lattice_;
   Eigen::MatrixXd motion_;  // (6 cylinders, 6 bodies): velocities of the cylinders when the bodies move
+  SolvedMotions solved_{0};
   std::vector<Type> types_;
   std::vector<std::size_t> type_of_;
   int orders_;

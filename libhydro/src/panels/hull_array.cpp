@@ -90,12 +90,26 @@ std::vector<std::unique_ptr<const Model>> models_in(const Water& water, const Hu
   return out;
 }
 
+/// A hull has the planes of symmetry that its mesh has.
+cylinders::SolvedMotions solved_motions(const HullPlaces& places, const std::vector<PanelMesh>& mesh) {
+  return {places.circle, places.kind_of, places.motion, [&](std::size_t kind, const Eigen::Matrix2d& turn) {
+            const auto& images = mesh[kind].images;
+            return std::any_of(images.begin(), images.end(), [&](const Image& image) {
+              return turn == Eigen::Vector2d(image.x, image.y).asDiagonal().toDenseMatrix();
+            });
+          }};
+}
+
 /// What is extrapolated are T, R, E and L of each kind, one after the other.
 class ArraySolver : public Solver {
  public:
   ArraySolver(std::shared_ptr<const HullPlaces> places, std::vector<PanelMesh> mesh, const Water& water,
               const std::vector<double>& omega, double threshold)
-      : places_(std::move(places)), mesh_(std::move(mesh)), water_(water), threshold_(threshold) {
+      : places_(std::move(places)),
+        mesh_(std::move(mesh)),
+        solved_(solved_motions(*places_, mesh_)),
+        water_(water),
+        threshold_(threshold) {
     if (water_.depth.is_infinite()) return;
     shared_ = models_in(water_, *places_, mesh_);
     channels_ = channels_of_all(*places_, water_, omega, threshold);
@@ -115,19 +129,21 @@ class ArraySolver : public Solver {
     return out;
   }
   OneFrequency answer(double omega, const std::vector<double>& heading, const Extrapolated& from) const override {
-    return answer_of(places_->circle, places_->kind_of, places_->lattice, places_->motion, omega, heading, from);
+    return answer_of(places_->circle, places_->kind_of, places_->lattice, places_->motion, solved_, omega, heading,
+                     from);
   }
   MatrixXd added_mass(double limit, const Extrapolated& from) const override {
     ensure(std::isinf(limit), "arrays have no limit of long waves");
     const PartialWaves waves = waves_at(limit);
     return cylinders::added_mass_at_infinity(groups(places_->circle, places_->kind_of, places_->lattice, waves, from),
-                                             water_, places_->motion, cylinders::Equations::automatic);
+                                             water_, places_->motion, solved_, cylinders::Equations::automatic);
   }
   std::vector<OneFrequency> alone(double omega, const std::vector<double>& heading,
                                   const Extrapolated& from) const override {
     std::vector<OneFrequency> out;
     for (std::size_t k = 0; k < places_->kind.size(); ++k)
-      out.push_back(answer_of({places_->circle_of_kind[k]}, {k}, {}, MatrixXd::Identity(6, 6), omega, heading, from));
+      out.push_back(answer_of({places_->circle_of_kind[k]}, {k}, {}, MatrixXd::Identity(6, 6),
+                              cylinders::SolvedMotions(1), omega, heading, from));
     return out;
   }
   potential::WaveField field(const potential::FieldQuestion& question, int threads) const override {
@@ -174,17 +190,19 @@ class ArraySolver : public Solver {
             precision * threshold_};
   }
   OneFrequency answer_of(const Circles& circle, const Kinds& kind, const OnLattice& lattice, const MatrixXd& motion,
-                         double omega, const std::vector<double>& heading, const Extrapolated& from) const {
+                         const cylinders::SolvedMotions& solved, double omega, const std::vector<double>& heading,
+                         const Extrapolated& from) const {
     const PartialWaves waves = waves_at(omega);
     const cylinders::OneFrequency found =
         cylinders::answers(groups(circle, kind, lattice, waves, from),
-                           {omega, water_, waves.modes, heading, motion, cylinders::distance_across(circle),
+                           {omega, water_, waves.modes, heading, motion, solved, cylinders::distance_across(circle),
                             waves.channels.highest_order() + 1});
     return {found.A, found.B, found.B_far, found.X, found.X_far, waves.channels.count()};
   }
 
   std::shared_ptr<const HullPlaces> places_;
   std::vector<PanelMesh> mesh_;
+  cylinders::SolvedMotions solved_;
   Water water_;
   double threshold_;
   std::vector<std::unique_ptr<const Model>> shared_;  // in water of finite depth
@@ -363,7 +381,7 @@ Cost HullArray::cost(const std::vector<double>& omega, std::size_t headings, int
   std::vector<PanelMesh> cut;
   for (const PanelMesh& m : mesh_)
     if (!fine.empty()) cut.push_back(panels::refined(m));
-  const double columns = static_cast<double>(places_->motion.cols()) + static_cast<double>(headings);
+  const auto columns = static_cast<double>(solved_motions(*places_, mesh_).columns().size() + headings);
   for (std::size_t i = 0; i < omega.size(); ++i) {
     const PartialWaves waves = partial_waves(*places_, water_, omega[i], threshold_);
     const auto between = cylinders::equations_cost(

@@ -34,7 +34,7 @@ MeanDrift mean_drift(const FarField& far, double omega, const Water& water, bool
 // A holds harmonics up to about k times the extent, its square and a turn by one twice as many.
 std::vector<double> angles_around(double heading, double k, double extent, int orders) {
   const double reach = k * extent;
-  const int count = 2 * static_cast<int>(2 * (reach + 10 * std::cbrt(reach)) + 2 * orders + 20);
+  const int count = 4 * static_cast<int>(reach + 10 * std::cbrt(reach) + orders + 11);
   std::vector<double> out;
   for (int t = 0; t < count; ++t) out.push_back(heading + 2 * pi * t / count);
   return out;

@@ -33,7 +33,8 @@ struct MeanDrift {
 MeanDrift mean_drift(const FarField& far, double omega, const Water& water, bool held = false);
 
 /// So many angles that the square of a far field of waves number `k` from within a circle of radius `extent` is summed
-/// to rounding, `orders` more than that: the trapezium rule of a periodic function that holds its harmonics.
+/// to rounding, `orders` more than that: the trapezium rule of a periodic function that holds its harmonics. A multiple
+/// of four: quarter turns and mirrors bring them onto each other.
 std::vector<double> angles_around(double heading, double k, double extent, int orders);
 
 }  // namespace hydro::potential
