@@ -38,6 +38,7 @@ WaveMakers wave_makers(const scene::Scene& scene) {
           fmt::format("[ask.field]: \"{}\" does not feel the waves of the other bodies, which a field has", body.name),
           body.hydrodynamics->interaction_place, "leave `interaction` out");
   }
+  compile::require_still_water(scene, "fields");
   const WaveMakers out{compile::bodies_of_cylinders(scene), compile::bodies_of_meshes(scene)};
   if (out.count() == 0)
     throw InputError("[ask.field] asks for the waves about bodies, but no body has [body.hydrodynamics] of its shape",

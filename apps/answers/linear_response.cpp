@@ -113,9 +113,6 @@ std::vector<LinearDrag> drag_of_rao(const scene::Scene& scene, const compile::Pr
   if (!scene.rao->drag) return {};
   const scene::AskRao& ask = *scene.rao;
   const compile::DragAtRest at_rest = compile::drag_of_responses(scene, prepared.bodies);
-  if (at_rest.in_current())
-    throw hydro::InputError("[ask.rao.drag] is for still water, but a current flows past a member", ask.drag->place,
-                            "leave it out, or step a run");
   dynamics::frequency::DragWaves waves{.water = scene.water, .heading = 0, .amplitude = {}};
   for (const double omega : frequencies) waves.amplitude.push_back(height_of(*ask.drag, omega, scene.water) / 2);
   std::vector<LinearDrag> drags;

@@ -220,6 +220,7 @@ Plan plan(const scene::Scene& scene, const std::shared_ptr<compile::Kept>& kept)
   if (prepared.sharing_waves.size() > 1 || (!prepared.sharing_waves.empty() && prepared.sharing_waves[0].size() > 1))
     out.sections.push_back(plan_sharing(scene, prepared));
   out.notes = prepared.notes;
+  if (scene.rao || scene.ask_modes || scene.field) compile::require_still_water(scene, "small motions");
   if (scene.rao) out.sections.push_back(plan_rao(scene, prepared, out.notes));
   if (scene.ask_modes) out.sections.push_back(plan_modes(prepared));
   if (scene.field) out.sections.push_back(plan_field(scene));

@@ -47,7 +47,7 @@ class Densities {
 
   /// From these frequencies on. \throws hydro::NumericsError
   void refine(const std::vector<double>& omega) {
-    if (!has_drag_of_sea(scene_, *prepared_)) return put_frequencies(omega);
+    if (!compile::any_drag(scene_)) return put_frequencies(omega);
     refine_with_drag(omega);
   }
 
@@ -176,9 +176,6 @@ ResponseSpectra answer_of(const scene::Scene& scene, std::size_t sea, const Dens
     units.resize(units.size() - std::string_view("/m").size());  // per metre of wave amplitude no more
     out.signals.push_back({r.signals[s].name, units, found.spectrum(sea, s + 1)});
   }
-  if (compile::any_drag(scene) && !out.drag)
-    out.notes.emplace_back(
-        "a current flows past members with drag: equivalent linearisation in a sea is for still water");
   if (random.second_order) out.notes.emplace_back("bound waves of second order are left out");
   if (out.left_out > scene.accuracy)
     out.warnings.push_back(

@@ -19,10 +19,6 @@ double weight(const std::vector<double>& omega, std::size_t w) {
 
 }  // namespace
 
-bool has_drag_of_sea(const scene::Scene& scene, const compile::Prepared& prepared) {
-  return compile::any_drag(scene) && !compile::drag_of_responses(scene, prepared.bodies).in_current();
-}
-
 dynamics::frequency::SeaDrag sea_drag(const scene::Scene& scene, const compile::Prepared& prepared,
                                       const std::vector<System>& systems, const std::vector<double>& omega,
                                       const Eigen::VectorXd& start, const std::vector<Eigen::Matrix3d>& slow) {

@@ -23,9 +23,6 @@ struct DragInSea {
   std::vector<MemberDrag> members;
 };
 
-/// True if members have drag, in still water.
-bool has_drag_of_sea(const scene::Scene& scene, const compile::Prepared& prepared);
-
 /// Of wave systems whose directions are headings of the scene's [ask.rao], by the trapezium rule over `omega`, rad/s.
 /// `start`: coefficients of a neighbouring question, or none. `slow`: covariances of further velocities, one a piece,
 /// or none. \throws hydro::NumericsError where drag does not settle

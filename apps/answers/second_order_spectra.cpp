@@ -242,7 +242,7 @@ class DragOfBoth {
 
 Found found_with(const Question& q, int sectors, std::vector<std::string>& notes) {
   const SecondOrderLoads loads(q.scene, q.prepared.bodies, rays_of(random_sea(q.scene), sectors), notes);
-  if (!has_drag_of_sea(q.scene, q.prepared)) return answers_to(loads, q, nullptr, notes);
+  if (!compile::any_drag(q.scene)) return answers_to(loads, q, nullptr, notes);
   return DragOfBoth(q, sectors).settled(loads, notes);
 }
 
@@ -266,16 +266,15 @@ Found found_of(const Question& q, double& error, std::vector<std::string>& notes
 }
 
 /// What answers of this kind suppose.
-void tell_limits(const scene::Scene& scene, const compile::Prepared& prepared, std::vector<std::string>& notes) {
+void tell_limits(const compile::Prepared& prepared, std::vector<std::string>& notes) {
   for (const auto& g : prepared.groups)
     if (g.radiation)
       notes.push_back(fmt::format(
           "below {:.4g} rad/s, where coefficients begin, slow drift has {}, and damping straight to none",
           g.table.lowest(), g.table.coefficients().A_zero ? "added mass straight to A(0)" : "their first added mass"));
-  notes.push_back(fmt::format(
-      "offset and slow drift go through stiffness and linear damping about rest: {}wave-drift damping and moorings "
-      "that stiffen have no part",
-      compile::any_drag(scene) && !has_drag_of_sea(scene, prepared) ? "drag in a current, " : ""));
+  notes.emplace_back(
+      "offset and slow drift go through stiffness and linear damping about rest: wave-drift damping and moorings that "
+      "stiffen have no part");
   notes.emplace_back(
       "responses of second order are not Gaussian, and their sum with the first is not: largest values and damage are "
       "of the first order alone; for those of all, step a run and ask `froude extremes`");
@@ -304,7 +303,7 @@ std::optional<SecondOrderResponses> second_order_responses(const scene::Scene& s
                            found.slow ? found.slow->spectrum(row) : hydro::signal::SpectrumPerHz{},
                            found.sum ? found.sum->spectrum(row) : hydro::signal::SpectrumPerHz{}});
   }
-  tell_limits(scene, prepared, out.notes);
+  tell_limits(prepared, out.notes);
   return out;
 }
 

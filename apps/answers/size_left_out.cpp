@@ -44,9 +44,8 @@ void SizeLeftOut::find_members(const scene::Scene& scene, const compile::Prepare
                          [](const scene::Member& m) { return m.slamming.has_value(); });
   if (drag_is_kept) return;
   compile::DragAtRest left_out = compile::drag_of_responses(scene, prepared.bodies);
-  in_current_ = left_out.in_current();
   dragged_ = std::move(left_out.pieces);
-  if (!dragged_.empty() && !in_current_) drag_.emplace(about_, dragged_, scene.water);
+  if (!dragged_.empty()) drag_.emplace(about_, dragged_, scene.water);
 }
 
 void SizeLeftOut::find_joints(const compile::Prepared& prepared) {
@@ -121,7 +120,6 @@ std::string SizeLeftOut::in_own_waves(Tell tell) const {
 }
 
 std::string SizeLeftOut::drag_told() const {
-  if (in_current_) return "how large the drag left out is cannot be told: a current flows past a member";
   const auto largest = drag_->largest();
   if (!largest) return "how large the drag left out is cannot be told: waves move nothing that drags";
   return fmt::format(

@@ -63,7 +63,6 @@ class SizeLeftOut {
   hydro::Water water_;
   std::optional<double> height_;              ///< of the scene's own waves, m
   std::vector<dynamics::DragPiece> dragged_;  ///< whose drag is left out
-  bool in_current_ = false;                   ///< that is, some of them
   std::optional<dynamics::frequency::DragLeftOut> drag_;
   bool impacts_ = false;
   std::vector<dynamics::Friction> rubbing_;

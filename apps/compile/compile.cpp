@@ -131,8 +131,19 @@ std::string farthest(const dynamics::Model& model, const dynamics::State& state)
 
 }  // namespace
 
+void require_still_water(const Scene& scene, std::string_view what) {
+  const bool reached = !scene.members.empty() || std::any_of(scene.bodies.begin(), scene.bodies.end(),
+                                                             [](const auto& b) { return b.hydrodynamics.has_value(); });
+  if (scene.current_place && reached)
+    throw InputError(fmt::format("{} have no part for a current, which changes the waves that bodies meet and pushes "
+                                 "members along",
+                                 what),
+                     *scene.current_place, "take [current] out, or step a run of members, which have it");
+}
+
 dynamics::frequency::SmallMotions small_motions(const Scene& scene, const dynamics::Model& model,
                                                 const scene::About& about, std::vector<std::string>& notes) {
+  require_still_water(scene, "small motions");
   auto inertia = inertia_of_responses(scene, model.bodies());
   if (!about.equilibrium) return {model, dynamics::rest_state(model.bodies()), std::move(inertia)};
   return scene::placed(about.place, [&] {
@@ -245,6 +256,7 @@ PlanLine waves_line(const RunWater& water, double duration) {
 
 /// Where they balance without waves, with the velocities that the scene gives them there.
 dynamics::State in_equilibrium(const Scene& scene, const dynamics::Model& model, dynamics::State start) {
+  require_still_water(scene, "starts in equilibrium");
   return scene::placed(scene.run->place, [&] {
     dynamics::State out = dynamics::equilibrium(model, start);
     out.velocity = start.velocity;

@@ -86,6 +86,10 @@ void check_waves_of_rao(const scene::Scene& scene, const Prepared& prepared, std
 /// Model without radiation and excitation, which the frequency domain takes from `prepared.groups`. About: small
 /// motions. \throws hydro::InputError if they are about the bodies as placed and these are not in equilibrium there
 dynamics::Model frequency_model(const Prepared& prepared, const scene::About& about = {});
+/// A current carries waves, drags on members and is not in coefficients of hulls; small motions and what is found from
+/// them, balance at rest among it, have no part for that. \throws hydro::InputError at [current] if one reaches bodies;
+/// `what` has none of it, as "responses"
+void require_still_water(const scene::Scene& scene, std::string_view what);
 /// The small motions of that model, with the inertia of the scene's members; where they are about an equilibrium,
 /// `notes` is told where that is. \throws hydro::InputError if there is none
 dynamics::frequency::SmallMotions small_motions(const scene::Scene& scene, const dynamics::Model& model,

@@ -144,10 +144,6 @@ bool any_drag(const Scene& scene) {
                      [](const auto& m) { return m.cd || (m.morison && m.morison->cd > 0); });
 }
 
-bool DragAtRest::in_current() const {
-  return std::any_of(pieces.begin(), pieces.end(), [](const auto& piece) { return !piece.current.isZero(0); });
-}
-
 namespace {
 
 /// Of a member's part that is wet at rest.

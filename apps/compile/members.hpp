@@ -16,8 +16,6 @@ bool any_drag(const scene::Scene& scene);
 struct DragAtRest {
   std::vector<dynamics::DragPiece> pieces;
   std::vector<std::size_t> member;
-
-  bool in_current() const;
 };
 /// Of members that name drag at their places at rest. \throws hydro::InputError at one that is dry there
 DragAtRest drag_at_rest(const scene::Scene& scene, const std::vector<dynamics::RigidBody>& bodies);

@@ -38,12 +38,27 @@ RunResult read_csv(const Path& path) {
 
 }  // namespace
 
+namespace {
+
+/// What comes before is told before what comes after: cycles, extremes and spectra are of that order.
+RunResult rising(RunResult record, const Path& path) {
+  const auto& t = record.time;
+  const auto back = std::adjacent_find(t.begin(), t.end(), [](double a, double b) { return !(a < b); });
+  if (back != t.end())
+    throw hydro::InputError(fmt::format("time does not rise from sample {} to the next: {:.9g} s, then {:.9g} s",
+                                        back - t.begin() + 1, *back, *std::next(back)),
+                            {.file = path.string()}, "sort the record by time, and keep one sample of each instant");
+  return record;
+}
+
+}  // namespace
+
 RunResult read_record(const Path& path) {
   std::string ending = path.extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   if (ending == ".h5" || ending == ".nc") return read_run(path);
-  if (ending == ".csv" || ending == ".txt" || ending == ".dat") return read_csv(path);
+  if (ending == ".csv" || ending == ".txt" || ending == ".dat") return rising(read_csv(path), path);
   throw hydro::InputError(fmt::format("\"{}\" is no kind of file with time series that is known here", ending),
                           {.file = path.string()}, "give a .csv with a header, or the .h5 of `froude run`");
 }

@@ -31,9 +31,8 @@ double force(double height) {
   return 2 * density * volume * height / 2 * omega * omega * std::exp(-omega * omega / 9.81 * 20);
 }
 
-scene::Scene slide(const std::string& heights, const std::string& cubic = "") {
-  const auto file = support::scratch_folder() / "slide.toml";
-  std::ofstream(file) << R"(schema = 1
+std::string slide_text(const std::string& heights, const std::string& cubic = "") {
+  return R"(schema = 1
 [water]
 density = "1025 kg/m^3"
 gravity = "9.81 m/s^2"
@@ -64,13 +63,23 @@ axis = "z"
 [joint.pto]
 stiffness = "4180 N/m"
 damping = "904 N s/m"
-)" << cubic << R"(
+)" + cubic +
+         R"(
 [ask]
-stability = { periods = "10 s .. 10 s, 1 values", heights = ")"
-                      << heights << R"(", of = ["slide.stroke"] }
+stability = { periods = "10 s .. 10 s, 1 values", heights = ")" +
+         heights + R"(", of = ["slide.stroke"] }
 accuracy = 1e-3
 )";
+}
+
+scene::Scene scene_of(const std::string& text) {
+  const auto file = support::scratch_folder() / "slide.toml";
+  std::ofstream(file) << text;
   return scene::read(file);
+}
+
+scene::Scene slide(const std::string& heights, const std::string& cubic = "") {
+  return scene_of(slide_text(heights, cubic));
 }
 
 // The force is that where the tube is: kA of it, and as much of the stiffness of the waves.
@@ -85,6 +94,22 @@ TEST(Stability, OfALinearBodyIsItsResponseAndItsDecay) {
     EXPECT_NEAR(map.signals.at(0).values[c], amplitude / std::sqrt(2), kA * amplitude + 1e-4 * amplitude);
   }
   EXPECT_TRUE(std::isnan(map.mathieu.at(0)));  // a single motion that waves drive does not grow by itself
+}
+
+// A mooring in place of the slide: no joint at all.
+TEST(Stability, WithoutJointsIsThatOfTheSlide) {
+  const StabilityMap slid = stability(slide("0.1 m .. 0.1 m, 1 values"));
+  std::string text = slide_text("0.1 m .. 0.1 m, 1 values");
+  const auto begin = text.find("[[joint]]"), end = text.find("[ask]");
+  text.replace(
+      begin, end - begin,
+      "[[mooring]]\non = \"tube\"\nkind = \"linear\"\nstiffness = { heave = \"4180 N/m\" }\ndamping = { heave = "
+      "\"904 N s/m\" }\n");
+  text.insert(text.find("mass = "), "free = [\"heave\"]\n");
+  text.replace(text.find("slide.stroke"), std::string("slide.stroke").size(), "tube.heave");
+  const StabilityMap moored = stability(scene_of(text));
+  EXPECT_NEAR(moored.cells.at(0).multiplier, slid.cells.at(0).multiplier, 1e-9);
+  EXPECT_NEAR(moored.signals.at(0).values.at(0), slid.signals.at(0).values.at(0), 1e-9);
 }
 
 // To one harmonic F² = A² ((k − Mω² + ¾βA²)² + c²ω²); the third is ¼βA³ over 8 Mω² and more, 4e-3 of A.

@@ -39,8 +39,9 @@ std::string drift_of(const hs::Trend& trend, double duration, const std::optiona
   constexpr double usual = 1.5;  // Tz of a broad sea is near Tm02, which its own tail shortens
   if (waves && waves->mean_period > usual * tm02)
     return fmt::format(
-        "has waves of {:.4g} s from one crossing of the mean to the next, where its spectrum has {:.4g} s: "
-        "it drifts slowly, so that waves miss the mean; take the drift off first",
+        "has waves of {:.4g} s from one crossing of the mean to the next, where its spectrum has {:.4g} s: either it "
+        "drifts slowly, so that waves miss the mean (take the drift off first), or noise, spikes or bridged gaps above "
+        "the waves' frequencies shorten the period of the spectrum (bridge spikes, or cut the band)",
         waves->mean_period, tm02);
   return "";
 }

@@ -91,6 +91,12 @@ std::vector<std::string> notes_of(const Estimate& e, bool uneven) {
   return out;
 }
 
+/// Half of the band of H1 at this confidence, over H1. Of n_d complex pairs one complex coefficient is taken: Student's
+/// t with 2(n_d − 1) degrees of freedom. (S9)
+double half_band(const hs::TransferEstimate& transfer, std::size_t k, double confidence) {
+  return hs::student_t_quantile((1 + confidence) / 2, 2 * (transfer.averages - 1)) * transfer.gain_relative_error[k];
+}
+
 /// Where the input is strongest, the response is known best: one line for each output.
 void add_response(const Analysis& a, Report& report) {
   const auto input =
@@ -99,16 +105,21 @@ void add_response(const Analysis& a, Report& report) {
   const auto& density = input->welch.spectrum.density;
   const auto k = static_cast<std::size_t>(std::max_element(density.begin() + 1, density.end()) - density.begin());
   report.say("response to {} at its peak, {:.4g} Hz:", a.input, input->welch.spectrum.frequency_hz[k]);
-  for (const Estimate& e : a.estimates)
-    if (e.transfer)
+  for (const Estimate& e : a.estimates) {
+    if (!e.transfer) continue;
+    const hs::TransferEstimate& t = *e.transfer;
+    const std::string by_chance = fmt::format("unrelated signals stay below {:.2f} at {:g} % of the frequencies",
+                                              t.coherence_threshold, 100 * a.confidence);
+    if (t.coherence[k] < t.coherence_threshold)
+      report.say("{:<24} may have nothing to do with it: coherence {:.3f} ({}), so no gain is told", e.signal.name,
+                 t.coherence[k], by_chance);
+    else
       report.say(
-          "{:<24} |H1| {:.4g} +- {:.2g} {}, |H2| {:.4g}, |Hv| {:.4g}, phase {:.1f} deg, coherence {:.3f} (unrelated "
-          "signals stay "
-          "below {:.2f} at {:g} % of the frequencies)",
-          e.signal.name, std::abs(e.transfer->h1[k]), std::abs(e.transfer->h1[k]) * e.transfer->gain_relative_error[k],
-          gain_unit(e.signal.units, input->signal.units), std::abs(e.transfer->h2[k]), hs::total_gain(*e.transfer, k),
-          std::arg(e.transfer->h1[k]) / degree, e.transfer->coherence[k], e.transfer->coherence_threshold,
-          100 * a.confidence);
+          "{:<24} |H1| {:.4g} +- {:.2g} {} ({:g} %), |H2| {:.4g}, |Hv| {:.4g}, phase {:.1f} deg, coherence {:.3f} ({})",
+          e.signal.name, std::abs(t.h1[k]), half_band(t, k, a.confidence) * std::abs(t.h1[k]),
+          gain_unit(e.signal.units, input->signal.units), 100 * a.confidence, std::abs(t.h2[k]), hs::total_gain(t, k),
+          std::arg(t.h1[k]) / degree, t.coherence[k], by_chance);
+  }
 }
 
 /// One column of results along frequency, SI: densities here are per hertz, and a file's unit says so.
@@ -142,12 +153,10 @@ std::vector<Column> columns_of(const Analysis& a) {
                            phase,
                            {e.signal.name + ".coherence", "", e.transfer->coherence},
                            {e.signal.name + ".gain_relative_error", "", e.transfer->gain_relative_error}});
-    // Of n_d complex pairs one complex coefficient is taken: Student's t with 2(n_d − 1) degrees of freedom. (S9)
-    const double t = hydro::signal::student_t_quantile((1 + a.confidence) / 2, 2 * (e.transfer->averages - 1));
     for (const auto& [end, sign] : {std::pair{"low", -1.0}, {"high", 1.0}}) {
       Column edge{fmt::format("{}.gain_h1_{}", e.signal.name, end), unit, h1.values};
       for (std::size_t k = 0; k < edge.values.size(); ++k)
-        edge.values[k] *= 1 + sign * t * e.transfer->gain_relative_error[k];
+        edge.values[k] *= 1 + sign * half_band(*e.transfer, k, a.confidence);
       out.push_back(std::move(edge));
     }
     Column hv{e.signal.name + ".gain_hv", unit, {}};

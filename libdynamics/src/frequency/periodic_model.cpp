@@ -211,6 +211,7 @@ VectorXd PeriodicModel::memory_velocity(const CoordinateMotion& motion) {
 
 VectorXd PeriodicModel::multipliers(const Bodies& b, const VectorXd& load) {
   const JointSet& joints = model_.joints();
+  if (joints.count() == 0) return VectorXd(0);
   const MatrixXd G = joints.dense(joints.gradients(b.state));
   return hydro::dense::PivotedQr(G.transpose()).solve(-residual(b, load));
 }

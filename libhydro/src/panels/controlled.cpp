@@ -98,7 +98,12 @@ class Ladder {
   }
   Extrapolated step(std::size_t frequency) const;
   Extrapolated step(Limit limit) const;
+  /// Divided by the scales at their frequencies.
   std::vector<Extrapolated> corrections() const;
+  /// The value of the first mesh with the correction that these weights make of those.
+  Extrapolated corrected(std::size_t frequency, const std::vector<Extrapolated>& corrections,
+                         const std::vector<double>& weights) const;
+  void find_scales();
   std::vector<double> sample_omega() const;
   const Level& first() const { return levels_.front(); }
   const Solver& solver() const { return *first().solver; }
@@ -114,6 +119,7 @@ class Ladder {
   const std::vector<double>&omega_, &heading_;
   const Options& options_;
   std::vector<Level> levels_;
+  std::vector<Extrapolated> scale_;  // at each frequency; empty: 1
   std::unique_ptr<const Solver> more_;
   std::vector<std::optional<OneFrequency>> more_waves_;
   int wanted_ = 0, done_ = 0;
@@ -160,6 +166,7 @@ void Ladder::solve() {
     ++done_;
     if (options_.progress) options_.progress(done_, all);
   });
+  find_scales();
 }
 
 Extrapolated Ladder::step(std::size_t frequency) const {
@@ -177,8 +184,18 @@ Extrapolated Ladder::step(Limit limit) const {
 /// What is added to the first mesh, at the samples.
 std::vector<Extrapolated> Ladder::corrections() const {
   std::vector<Extrapolated> out;
-  for (const std::size_t i : samples()) out.push_back(sum(sum(*levels_.back().at[i], -1, *first().at[i]), 1, step(i)));
+  for (const std::size_t i : samples()) {
+    out.push_back(sum(sum(*levels_.back().at[i], -1, *first().at[i]), 1, step(i)));
+    for (std::size_t m = 0; !scale_.empty() && m < out.back().size(); ++m)
+      out.back()[m] = out.back()[m].cwiseQuotient(scale_[i][m]).eval();
+  }
   return out;
+}
+
+void Ladder::find_scales() {
+  std::vector<const Extrapolated*> all;
+  for (const auto& one : first().at) all.push_back(&*one);
+  scale_ = solver().scales(all);
 }
 
 std::vector<double> Ladder::sample_omega() const {
@@ -192,6 +209,14 @@ Extrapolated weighted(const std::vector<Extrapolated>& values, const std::vector
   for (std::size_t i = 1; i < values.size(); ++i)
     if (weights[i] != 0) out = sum(out, weights[i], values[i]);
   return out;
+}
+
+Extrapolated Ladder::corrected(std::size_t frequency, const std::vector<Extrapolated>& corrections,
+                               const std::vector<double>& weights) const {
+  Extrapolated added = weighted(corrections, weights);
+  for (std::size_t m = 0; !scale_.empty() && m < added.size(); ++m)
+    added[m] = added[m].cwiseProduct(scale_[frequency][m]).eval();
+  return sum(*first().at[frequency], 1, added);
 }
 
 /// Of all frequencies, several at a time.
@@ -217,7 +242,7 @@ Work Ladder::work(Estimate& e) const {
   const std::vector<double> nodes = sample_omega();
   std::vector<Extrapolated> value;
   for (std::size_t i = 0; i < omega_.size(); ++i)
-    value.push_back(sum(*first().at[i], 1, weighted(correction, cubic_weights(nodes, omega_[i]))));
+    value.push_back(corrected(i, correction, cubic_weights(nodes, omega_[i])));
   w.results = answers(value);
   w.check = self_check(w.results, first().mesh->length());
   const Sizes size = sizes(w.results, w.check.length);
@@ -260,7 +285,7 @@ double Ladder::interpolation_error(const Work& w, const std::vector<Extrapolated
     added = std::max(added, largest(sum(w.results[at[s]], -1, answer(at[s], before)), size));
     if (s == 0 || s + 1 == nodes.size()) continue;
     const std::vector<double> others = cubic_weights(nodes, nodes[s], static_cast<int>(s));
-    const OneFrequency without = answer(at[s], sum(before, 1, weighted(correction, others)));
+    const OneFrequency without = answer(at[s], corrected(at[s], correction, others));
     missed = std::max(missed, largest(sum(w.results[at[s]], -1, without), size));
   }
   return std::max(of_omitted * missed, of_roughness * added * roughness());

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "controlled.hpp"
+#include "extrapolate.hpp"
 #include "hull_array.hpp"
 #include "refine.hpp"
 #include "request.hpp"
@@ -26,6 +27,9 @@ class AnswersOfModel : public Solver {
     return {from[0].real(), from[1].real(), from[2].real(), from[3], from[4]};
   }
   Eigen::MatrixXd added_mass(double, const Extrapolated& from) const override { return from[0].real(); }
+  std::vector<Extrapolated> scales(const std::vector<const Extrapolated*>& solved) const override {
+    return scales_of_waves(solved);
+  }
   std::vector<OneFrequency> alone(double omega, const std::vector<double>& heading,
                                   const Extrapolated& from) const override {
     return {answer(omega, heading, from)};

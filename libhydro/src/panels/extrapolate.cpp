@@ -62,6 +62,37 @@ MatrixXd step_to_the_limit(const std::vector<MatrixXd>& all) {
 
 double doubtful_share(std::size_t meshes) { return meshes > 2 ? 0.3 : 0.6; }
 
+std::vector<Extrapolated> Solver::scales(const std::vector<const Extrapolated*>&) const { return {}; }
+
+std::vector<Extrapolated> scales_of_waves(const std::vector<const Extrapolated*>& solved) {
+  constexpr double least_of_largest = 1e-12;  // rounding
+  using Eigen::VectorXd;
+  const auto sizes_of = [](const Extrapolated& one, std::size_t matrix) -> VectorXd {
+    const Eigen::MatrixXcd& M = one[matrix];
+    if (matrix < 3) return M.diagonal().cwiseAbs();
+    return M.cols() > 0 ? VectorXd(M.cwiseAbs().rowwise().maxCoeff()) : VectorXd::Zero(M.rows());
+  };
+  std::vector<Extrapolated> out;
+  for (const Extrapolated* one : solved) {
+    out.emplace_back();
+    for (const Eigen::MatrixXcd& M : *one) out.back().push_back(Eigen::MatrixXcd::Ones(M.rows(), M.cols()));
+  }
+  for (std::size_t m = 1; m < solved.front()->size(); ++m) {
+    VectorXd largest = sizes_of(*solved.front(), m);
+    for (const Extrapolated* one : solved) largest = largest.cwiseMax(sizes_of(*one, m));
+    VectorXd so_far = least_of_largest * largest;
+    for (std::size_t i = 0; i < solved.size(); ++i) {
+      so_far = so_far.cwiseMax(sizes_of(*solved[i], m));
+      const VectorXd s = (largest.array() > 0).select(so_far, VectorXd::Ones(largest.size()));
+      if (m < 3)
+        out[i][m] = (s.cwiseSqrt() * s.cwiseSqrt().transpose()).cast<std::complex<double>>();
+      else
+        out[i][m].colwise() = s.cast<std::complex<double>>();
+    }
+  }
+  return out;
+}
+
 std::vector<double> cubic_weights(const std::vector<double>& nodes, double x, int without) {
   std::vector<std::size_t> used;
   for (std::size_t i = 0; i < nodes.size(); ++i)

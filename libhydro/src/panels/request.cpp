@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <limits>
 #include <numbers>
 
 #include "hydro/waves/dispersion.hpp"
@@ -54,15 +55,24 @@ namespace {
 /// Panels that waves reach are short beside the shortest of them: of a hemisphere heave's damping is 4, 9, 15 and 25 %
 /// off with 10, 7, 5 and 3 panels a wave length, against nine times as many.
 constexpr double a_wave_length = 5, reached = 0.25;  // panels a wave length; wave lengths of depth
+/// Of a panel taller than waves are deep the top edge, not the centre, tells that they reach it.
+constexpr double reached_edge = reached / 2;
 
 double shortest_wave(const Water& water, double highest) {
   return 2 * std::numbers::pi / waves::wavenumber(highest, water);
 }
 
+double top_of(const Panel& panel) {
+  double top = -std::numeric_limits<double>::infinity();
+  for (const Vector3d& p : panel.shape.corners) top = std::max(top, p.z());
+  return top;
+}
+
 double longest_reached(const PanelMesh& mesh, double length) {
   double across = 0;
   for (const Panel& p : mesh.hull)
-    if (p.shape.centre.z() > -reached * length) across = std::max(across, p.shape.size);
+    if (p.shape.centre.z() > -reached * length || top_of(p) > -reached_edge * length)
+      across = std::max(across, p.shape.size);
   return across;
 }
 

@@ -27,8 +27,20 @@ using Eigen::MatrixXcd;
 using Eigen::MatrixXd;
 using potential::Coefficients;
 
+/// A face lies on the bed, to what a mesh's digits leave.
+bool stands_on_bed(const HullBody& body, const Water& water) {
+  if (water.depth.is_infinite()) return false;
+  const double near = 1e-6 * body.hull.diagonal(), bed = -water.depth.metres();
+  const auto& triangles = body.hull.triangles();
+  return std::any_of(triangles.begin(), triangles.end(), [&](const auto& t) {
+    return std::all_of(t.begin(), t.end(), [&](int v) {
+      return std::abs(body.hull.vertices()[static_cast<std::size_t>(v)].z() - bed) < near;
+    });
+  });
+}
+
 void fill_bodies(const std::vector<HullBody>& bodies, const Water& water, Coefficients& c) {
-  bool known = true;
+  bool known = true, floating = true;
   for (const HullBody& body : bodies) {
     const hydrostatics::Immersion im = hydrostatics::immersion(body.hull, {});
     c.body.push_back({.name = body.name,
@@ -37,9 +49,13 @@ void fill_bodies(const std::vector<HullBody>& bodies, const Water& water, Coeffi
                       .centre_of_buoyancy = im.centre_of_buoyancy,
                       .displaced_volume = im.volume});
     known = known && body.centre_of_gravity;
+    if (!stands_on_bed(body, water)) continue;
+    floating = false;
+    c.notes.push_back(fmt::format(
+        "\"{}\" stands on the sea bed: its faces there meet no water, and loads are without them", body.name));
   }
-  if (!known) {
-    c.notes.push_back("no restoring matrix: a body has no centre of gravity");
+  if (!known || !floating) {
+    c.notes.push_back("no restoring matrix: a body has no centre of gravity or stands on the sea bed");
     return;
   }
   c.C = MatrixXd::Zero(c.modes(), c.modes());
@@ -207,6 +223,22 @@ std::vector<double> expected(const std::vector<HullBody>& bodies, const Water& w
   return potential::expected_frequencies(omega, *options.frequency_tolerance, box.diagonal().norm(), water);
 }
 
+/// Waves far away and pressures are two ways to the same numbers, and A and B are symmetric; panels that are too coarse
+/// for a gap or a wave miss it. A mode is measured against a tenth of the largest of its kind at least.
+void require_credible(const SelfCheck& k) {
+  constexpr double most = 0.3;
+  if (k.energy <= most && k.haskind <= most && k.reciprocity <= most) return;
+  throw InputError(
+      fmt::format(
+          "the mesh is too coarse, and what it gives is no answer: power of waves far away differs from damping "
+          "by {:.2g} of its modes, excitation from Haskind's by {:.2g}, A and B from symmetric ones by {:.2g}; "
+          "{:g} is the most that is taken",
+          k.energy, k.haskind, k.reciprocity, most),
+      {},
+      "make panels finer, above all in narrow gaps and at the waterline, leave out the shortest waves, or let a "
+      "tolerance refine them: mesh_tolerance in a scene, --tolerance of froude bem solve");
+}
+
 }  // namespace
 
 Solution solve(const std::vector<HullBody>& bodies, const Water& water, const std::vector<double>& omega,
@@ -227,6 +259,7 @@ Solution solve(const std::vector<HullBody>& bodies, const Water& water, const st
   const Work w = controlled ? controlled_work(*given, chosen.omega, heading, options)
                             : plain_work(*given, chosen.omega, heading, options, by_choosing);
   s.check = w.check;
+  if (!controlled) require_credible(s.check);
   c.source = fmt::format("panels: {} on {} {}", s.check.panels, bodies.size(), bodies.size() == 1 ? "hull" : "hulls");
   s.check.passivity = fill(w, chosen.omega, heading, c);
   add_notes(s.check, c);

@@ -65,6 +65,25 @@ std::vector<double> frequencies(const WelchOptions& options, double step_s) {
   return f;
 }
 
+/// Names the first step that is not as most are: the mean step of a record with a gap is nowhere in it.
+[[noreturn]] void refuse_uneven(std::span<const double> time_s, double slack) {
+  std::vector<double> steps;
+  for (std::size_t j = 1; j < time_s.size(); ++j) steps.push_back(time_s[j] - time_s[j - 1]);
+  std::vector<double> sorted = steps;
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+  std::nth_element(sorted.begin(), middle, sorted.end());
+  const auto odd = std::find_if(steps.begin(), steps.end(),
+                                [&](double h) { return !(std::abs(h - *middle) <= slack * std::abs(*middle)); });
+  const std::size_t j = odd == steps.end() ? 0 : static_cast<std::size_t>(odd - steps.begin());
+  throw InputError(
+      fmt::format("the record is not evenly sampled: from sample {} at {:.9g} s to the next {:.6g} s pass, "
+                  "where most steps take {:.6g} s",
+                  j + 1, time_s[j], steps[j], *middle),
+      {},
+      "bridge the gap or interpolate to an even step first (--longest-gap, --resample, or these keys of a fit), "
+      "or cut the record there; `froude psd --uneven` takes it as it is");
+}
+
 }  // namespace
 
 double even_step(std::span<const double> time_s) {
@@ -72,15 +91,10 @@ double even_step(std::span<const double> time_s) {
   const double step = (time_s.back() - time_s.front()) / static_cast<double>(time_s.size() - 1);
   require(std::isfinite(step) && step > 0, "time must increase, but goes from {} s to {} s", time_s.front(),
           time_s.back());
-  for (std::size_t j = 0; j < time_s.size(); ++j) {
-    const double even = time_s.front() + static_cast<double>(j) * step;
-    if (!(std::abs(time_s[j] - even) <= 0.02 * step))
-      throw InputError(
-          fmt::format(
-              "the record is not evenly sampled: sample {} is at {:.9g} s, evenly spaced it would be at {:.9g} s",
-              j + 1, time_s[j], even),
-          {}, "fill the gap or interpolate to an even step first, or cut the record there");
-  }
+  constexpr double slack = 0.02;  // of a step
+  for (std::size_t j = 0; j < time_s.size(); ++j)
+    if (!(std::abs(time_s[j] - time_s.front() - static_cast<double>(j) * step) <= slack * step))
+      refuse_uneven(time_s, slack);
   return step;
 }
 

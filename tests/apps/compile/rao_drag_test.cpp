@@ -97,7 +97,7 @@ TEST(RaoDrag, NeedsDragAndStillWater) {
   std::string text = moored_module(on_cylinders, "drag = { height = \"0.8 m\" }, ");
   text.insert(text.find("[waves]"), "[current]\nvelocity = \"(0.5, 0, 0) m/s\"\n");
   EXPECT_THAT([&] { respond(froude_test::parse(text)); },
-              ThrowsMessage<hydro::InputError>(HasSubstr("is for still water")));
+              ThrowsMessage<hydro::InputError>(HasSubstr("no part for a current")));
 }
 
 }  // namespace

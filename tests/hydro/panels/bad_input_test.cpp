@@ -53,6 +53,29 @@ TEST(PanelInput, AnOpeningUnderWaterIsRefused) {
               AllOf(HasSubstr("\"cup\""), HasSubstr("0.5 m under water")));
 }
 
+// Of waves shorter than twice the top row no panel has its centre in reach.
+TEST(PanelInput, WavesFarShorterThanPanelsAreRefused) {
+  for (const double omega : {8.0, 20.0, 60.0})
+    EXPECT_THAT(refusal({named("buoy", hemisphere(1, 2, 8))}, deep, {omega}), HasSubstr("panels a wave length"))
+        << omega;
+}
+
+TEST(PanelInput, AHullOnTheBedHasNoRestoringMatrixAndSaysSo) {
+  auto mesh = hydrostatics::box_mesh({-1, -1, -0.7}, {1, 1, 0}, {6, 6, 4});
+  HullBody box = named("box", hydrostatics::Hull(mesh));
+  box.centre_of_gravity = Eigen::Vector3d(0, 0, -0.2);
+  const auto c = solve({box}, shallow, {1.0}, {0}).coefficients;
+  EXPECT_FALSE(c.C.has_value());
+  EXPECT_THAT(c.notes, ::testing::Contains(HasSubstr("\"box\" stands on the sea bed")));
+}
+
+// Panels of a third of a metre over a gap of a millimetre.
+TEST(PanelInput, WhatItsOwnLawsRefuteIsRefused) {
+  const auto mesh = hydrostatics::box_mesh({-1, -1, -0.699}, {1, 1, 0}, {6, 6, 3});
+  EXPECT_THAT(refusal({named("box", hydrostatics::Hull(mesh))}, shallow, {1.0, 2.0}),
+              AllOf(HasSubstr("no answer"), HasSubstr("Haskind")));
+}
+
 TEST(PanelInput, HullsInsideOneAnotherAreRefused) {
   EXPECT_THAT(refusal({named("outer", hemisphere(2, 4, 8)), named("inner", hemisphere(1, 4, 8))}, deep),
               AllOf(HasSubstr("\"inner\" is inside \"outer\""), HasSubstr("move the bodies apart")));
