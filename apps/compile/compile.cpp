@@ -89,13 +89,15 @@ void require_rest(const Prepared& prepared, const dynamics::Model& model) {
   Eigen::Index worst = 0;
   if (load.size() == 0 || load.cwiseAbs().maxCoeff(&worst) <= least * weight) return;
   const auto why = out_of_balance(prepared);
-  throw InputError(fmt::format("the scene is not in equilibrium as placed: {} feels {:.4g} {}{}{}",
-                               model.mode_name(static_cast<int>(worst)), load[worst], worst % 6 < 3 ? "N" : "N m",
-                               why.empty() ? "" : "; ", fmt::join(why, "; ")),
-                   {},
-                   why.empty() ? "give connectors rest_length = \"as placed\", or place the bodies where they balance"
-                               : "change mass, centre_of_gravity or position until the body floats as placed: `froude "
-                                 "hydrostatics --mass` tells where it does");
+  throw InputError(
+      fmt::format("the scene is not in equilibrium as placed: {} feels {:.4g} {}{}{}",
+                  model.mode_name(static_cast<int>(worst)), load[worst], worst % 6 < 3 ? "N" : "N m",
+                  why.empty() ? "" : "; ", fmt::join(why, "; ")),
+      {},
+      why.empty() ? "give connectors rest_length = \"as placed\", place the bodies where they balance, or ask about = "
+                    "\"equilibrium\""
+                  : "change mass, centre_of_gravity or position until the body floats as placed: `froude "
+                    "hydrostatics --mass` tells where it does");
 }
 
 }  // namespace

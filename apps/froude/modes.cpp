@@ -14,6 +14,9 @@ namespace {
 
 constexpr std::array<const char*, 6> motions{"surge", "sway", "heave", "roll", "pitch", "yaw"};
 
+/// Of a number that is told to two decimals.
+double without_sign_of_zero(double value) { return std::abs(value) < 0.005 ? 0 : value; }
+
 Report report_of(const Modes& modes, std::size_t i) {
   std::array<double, 6> percent = modes.energy[i];
   for (double& share : percent) share *= 100;
@@ -22,8 +25,8 @@ Report report_of(const Modes& modes, std::size_t i) {
   Report out, shape;
   out.say("{:>4} {:>10.5g}{}{:>11.5g} {:>10} {:>6.0f}  {}", i + 1, fact("period_s", modes.period(i)),
           fact("outside_data", outside, outside ? "*" : " "), fact("omega_rad_per_s", modes.omega[i]),
-          fact("damping_ratio", ratio, ratio ? fmt::format("{:.2f} %", 100 * *ratio) : "none"), fmt::join(percent, " "),
-          largest_motions(modes.motions, modes.shape_of(i)));
+          fact("damping_ratio", ratio, ratio ? fmt::format("{:.2f} %", without_sign_of_zero(100 * *ratio)) : "none"),
+          fmt::join(percent, " "), largest_motions(modes.motions, modes.shape_of(i)));
   for (std::size_t m = 0; m < modes.motions.size(); ++m) shape.keep(modes.motions[m], modes.shape_of(i)[m]);
   return out.part("shape", shape);
 }

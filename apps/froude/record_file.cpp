@@ -8,6 +8,7 @@
 #include "hydro/base/units.hpp"
 #include "hydro/io/csv.hpp"
 #include "scene/scene.hpp"
+#include "scene/schema.hpp"
 
 namespace froude {
 namespace {
@@ -31,7 +32,7 @@ RunResult read_csv(const Path& path) {
     const std::string unit = table.unit_text(name);
     // Values are in SI; a header in other units is told in SI too.
     const bool is_si = unit.empty() || hydro::parse_unit(unit).factor == 1;
-    record.signals.push_back({name, is_si ? unit : table.dimension(name).si(), name, table.column(name)});
+    record.signals.push_back({name, is_si ? unit : scene::si_unit(table.dimension(name)), name, table.column(name)});
   }
   return record;
 }

@@ -235,7 +235,7 @@ TEST_F(Psd, SaysWhatIsWrong) {
   EXPECT_THAT(run({.file = folder / "n.csv"}), ThrowsMessage<InputError>(HasSubstr("no column \"time\"")));
   time[1500] += 0.1;
   EXPECT_THAT(run({.file = csv()}),
-              ThrowsMessage<InputError>(testing::AllOf(HasSubstr("r.csv"), HasSubstr("sample 1501"))));
+              ThrowsMessage<InputError>(testing::AllOf(HasSubstr("r.csv"), HasSubstr("sample 1500"))));
 }
 
 // A line and a wave that is even about the middle of the record, so that its own line is level.

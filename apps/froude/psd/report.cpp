@@ -110,14 +110,15 @@ void add_response(const Analysis& a, Report& report) {
     const hs::TransferEstimate& t = *e.transfer;
     const std::string by_chance = fmt::format("unrelated signals stay below {:.2f} at {:g} % of the frequencies",
                                               t.coherence_threshold, 100 * a.confidence);
+    const std::string unit = gain_unit(e.signal.units, input->signal.units);
     if (t.coherence[k] < t.coherence_threshold)
       report.say("{:<24} may have nothing to do with it: coherence {:.3f} ({}), so no gain is told", e.signal.name,
                  t.coherence[k], by_chance);
     else
       report.say(
-          "{:<24} |H1| {:.4g} +- {:.2g} {} ({:g} %), |H2| {:.4g}, |Hv| {:.4g}, phase {:.1f} deg, coherence {:.3f} ({})",
+          "{:<24} |H1| {:.4g} +- {:.2g}{} ({:g} %), |H2| {:.4g}, |Hv| {:.4g}, phase {:.1f} deg, coherence {:.3f} ({})",
           e.signal.name, std::abs(t.h1[k]), half_band(t, k, a.confidence) * std::abs(t.h1[k]),
-          gain_unit(e.signal.units, input->signal.units), 100 * a.confidence, std::abs(t.h2[k]), hs::total_gain(t, k),
+          unit.empty() ? "" : " " + unit, 100 * a.confidence, std::abs(t.h2[k]), hs::total_gain(t, k),
           std::arg(t.h1[k]) / degree, t.coherence[k], by_chance);
   }
 }

@@ -141,7 +141,8 @@ CsvTable CsvTable::parse(std::string_view text, const std::string& file_name) {
     const auto cells = split(line->text, separator);
     if (cells.size() != table.columns_.size())
       throw InputError(
-          fmt::format("the row has {} cells, the header names {} columns", cells.size(), table.columns_.size()),
+          fmt::format("the row has {} {}, the header names {} {}", cells.size(), cells.size() == 1 ? "cell" : "cells",
+                      table.columns_.size(), table.columns_.size() == 1 ? "column" : "columns"),
           {file_name, line->number, 0, std::string(line->text), 0});
     for (std::size_t i = 0; i < cells.size(); ++i) {
       Column& column = table.columns_[i];

@@ -348,5 +348,14 @@ TEST(Doctor, SaysNothingAgainstExactCylinders) {
   }
 }
 
+TEST(Doctor, KnowsABodyWhollyUnderWater) {
+  const hydro::cylinders::CylinderBody disc{"disc", {0, 0, -2}, Eigen::Vector3d(0, 0, -2.2), {{{0, 0}, 1.0, 2.5, 1.5}}};
+  const hydro::Water water{.depth = hydro::WaterDepth::from_metres(6)};
+  const auto c = hydro::cylinders::solve({disc}, water, {0.5, 1, 1.5, 2}, {0.0}, {.tolerance = 1e-4}).coefficients;
+  ASSERT_EQ((*c.C)(2, 2), 0);
+  for (const Finding& f : check(c))
+    if (f.check == "restoring matrix") EXPECT_EQ(f.severity, Severity::note) << f.message;
+}
+
 }  // namespace
 }  // namespace doctor_test

@@ -42,11 +42,27 @@ Fault worst_fault(const Eigen::MatrixXd& C, double length) {
   return worst;
 }
 
+/// Without a waterplane only weight and buoyancy restore, alike in roll and pitch, by the way between their centres.
+bool is_of_submerged(const Patient& p, int body, const Eigen::MatrixXd& C) {
+  const BodyData& b = p.c.body[static_cast<std::size_t>(body)];
+  if (!b.displaced_volume || !b.centre_of_buoyancy || !b.centre_of_gravity || !C.block<1, 3>(2, 2).isZero(0))
+    return false;
+  constexpr double same = 1e-2;  // of a body whose centres are as far apart as it is large
+  const double weight = p.c.water.density * p.c.water.gravity * *b.displaced_volume;
+  const double restoring = weight * (b.centre_of_buoyancy->z() - b.centre_of_gravity->z());
+  const double slack = same * weight * std::cbrt(*b.displaced_volume);
+  return std::abs(C(3, 3) - restoring) <= slack && std::abs(C(4, 4) - restoring) <= slack;
+}
+
 Finding restoring_finding(const Patient& p, int body) {
   const Index at = 6 * static_cast<Index>(body);
   const Eigen::MatrixXd C = p.c.C->block<6, 6>(at, at);
   const double C33 = C(2, 2);
   Finding f{.check = "restoring matrix", .where = fmt::format("C of body {}", body + 1), .body = body + 1};
+  if (is_of_submerged(p, body, C)) {
+    f.message = "C₃₃ is 0 and C₄₄ and C₅₅ are those of its weight and buoyancy: the body is wholly under water";
+    return f;
+  }
   if (!(C33 > 0)) {
     f.severity = C33 < 0 || C.norm() > 0 ? Severity::error : Severity::warning;
     f.entry = {{static_cast<int>(at) + 3, static_cast<int>(at) + 3}};
