@@ -27,8 +27,8 @@ class Solver {
   /// A that solved() means in a limit.
   virtual Eigen::MatrixXd added_mass(double limit, const Extrapolated& from) const = 0;
   /// By what corrections of `solved` values are divided before they are interpolated over frequencies, and multiplied
-  /// after: where values vanish as waves become long, so do corrections. At the rising frequencies of the values; empty:
-  /// by nothing.
+  /// after: where values vanish as waves become long, so do corrections. At the rising frequencies of the values;
+  /// empty: by nothing.
   virtual std::vector<Extrapolated> scales(const std::vector<const Extrapolated*>& solved) const;
   /// The answers of hulls that stand alone, from which their own resonances are seen; of all together that one answer.
   virtual std::vector<OneFrequency> alone(double omega, const std::vector<double>& heading,

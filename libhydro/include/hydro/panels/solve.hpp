@@ -101,10 +101,9 @@ struct Cost {
 /// centre of gravity, C. A and B are symmetric parts and B has no negative eigenvalues; SelfCheck tells what that
 /// changed. \throws InputError naming the body: nothing of a hull under water, a hull below the bed, hulls inside one
 /// another, an opening under water; if a frequency is not finite and positive or the lists do not increase; more memory
-/// than the machine has; without a tolerance, panels longer than a fifth of the shortest wave where waves reach them, and
-/// energy, haskind or reciprocity of SelfCheck above 0.3;
-/// fewer than five frequencies where more are to be chosen, or 300 that do not do; a tolerance that cannot be met with
-/// three meshes of at most 4000 unknowns a system
+/// than the machine has; without a tolerance, panels longer than a fifth of the shortest wave where waves reach them,
+/// and energy, haskind or reciprocity of SelfCheck above 0.3; fewer than five frequencies where more are to be chosen,
+/// or 300 that do not do; a tolerance that cannot be met with three meshes of at most 4000 unknowns a system
 Solution solve(const std::vector<HullBody>& bodies, const Water& water, const std::vector<double>& omega,
                const std::vector<double>& heading, const Options& options = {});
 
