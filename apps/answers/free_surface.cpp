@@ -10,6 +10,7 @@
 #include "compile/compile.hpp"
 #include "compile/cylinders.hpp"
 #include "compile/hulls.hpp"
+#include "froude/hull_pressures.hpp"
 #include "hydro/base/error.hpp"
 
 namespace froude {
@@ -103,15 +104,29 @@ ComplexSignal part(const std::string& name, const std::string& meaning, const Ei
   return out;
 }
 
-void require_accuracy(const scene::Scene& scene, double estimate) {
-  const double accepted = std::max(scene.accuracy.value, scene.field->accepted_error);
-  if (estimate <= accepted) return;
-  throw InputError(
-      fmt::format("[ask.field]: the elevation is known to {:.2g} of its largest, and {:.2g} is asked for", estimate,
-                  accepted),
-      scene.field->place,
-      fmt::format("keep the grid off the sides of bodies, where it is worst, or write accepted_error = {:.2g}",
-                  1.1 * estimate));
+/// What is estimated, and the key that takes more than the accuracy asked.
+struct Estimated {
+  const char* what;
+  double estimate, accepted;
+  const char *key, *remedy;
+};
+void require_accuracy(const scene::Scene& scene, const Estimated& of) {
+  const double accepted = std::max(scene.accuracy.value, of.accepted);
+  if (of.estimate <= accepted) return;
+  throw InputError(fmt::format("[ask.field]: the {} is known to {:.2g} of its largest, and {:.2g} is asked for",
+                               of.what, of.estimate, accepted),
+                   scene.field->place, fmt::format("{}, or write {} = {:.2g}", of.remedy, of.key, 1.1 * of.estimate));
+}
+
+/// Pressures of the field under the names of these bodies.
+std::shared_ptr<const HullPressures> pressures(const scene::Scene& scene, const std::vector<int>& bodies,
+                                               const WaveField& field) {
+  if (!scene.field->pressure) return nullptr;
+  require_accuracy(scene, {"pressure", field.on_hulls->estimate, scene.field->accepted_pressure_error,
+                           "accepted_pressure_error", "give a finer mesh"});
+  auto out = std::make_shared<HullPressures>(HullPressures{{}, *field.on_hulls});
+  for (const int b : bodies) out->bodies.push_back(scene.bodies[static_cast<std::size_t>(b)].name);
+  return out;
 }
 
 }  // namespace
@@ -119,6 +134,9 @@ void require_accuracy(const scene::Scene& scene, double estimate) {
 FreeSurface free_surface(const scene::Scene& scene, const std::shared_ptr<compile::Kept>& kept) {
   const scene::AskField& asked = *scene.field;
   const WaveMakers makers = wave_makers(scene);
+  if (asked.pressure && makers.meshes.empty())
+    throw InputError("[ask.field]: the pressure on bodies of cylinders is not told", asked.pressure_place,
+                     "give them as meshes, or leave `pressure` out");
   const std::vector<int>& bodies = makers.meshes.empty() ? makers.cylinders : makers.meshes;
   FreeSurface out{.omega = asked.omega,
                   .heading = asked.heading,
@@ -129,7 +147,7 @@ FreeSurface free_surface(const scene::Scene& scene, const std::shared_ptr<compil
                   .notes = {},
                   .provenance = provenance_of(scene)};
   FieldQuestion question{asked.omega, asked.heading, Eigen::VectorXcd::Zero(6 * static_cast<Index>(bodies.size())),
-                         grid_of(asked)};
+                         grid_of(asked), asked.pressure};
   if (!asked.held) {
     const compile::Prepared prepared = compile::prepare(at_its_frequency(scene), kept);
     out.notes = prepared.notes;
@@ -138,7 +156,9 @@ FreeSurface free_surface(const scene::Scene& scene, const std::shared_ptr<compil
   }
   const WaveField field = makers.meshes.empty() ? compile::field_of_cylinders(scene, bodies, question)
                                                 : compile::field_of_hulls(scene, bodies, question);
-  require_accuracy(scene, field.estimate);
+  require_accuracy(scene, {"elevation", field.estimate, asked.accepted_error, "accepted_error",
+                           "keep the grid off the sides of bodies, where it is worst"});
+  out.pressure = pressures(scene, bodies, field);
   out.estimate = field.estimate;
   const hydro::potential::MeanDrift drift = mean_drift(field.far, asked.omega, scene.water);
   out.drift_x = drift.force.x();

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "answers/provenance.hpp"
+#include "froude/hull_pressures.hpp"
 #include "froude/result.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/base/units.hpp"
@@ -252,6 +253,86 @@ void StabilityMap::write(const std::filesystem::path& path) const {
   file.save(path);
 }
 
+namespace {
+
+/// Three numbers a panel, along `panel` and `space`.
+template <class Of>
+void write_in_space(Hdf5Writer& file, const std::string& name, const HullPressures& hulls, const Of& of,
+                    const std::string& units, const std::string& meaning) {
+  std::vector<double> flat;
+  for (const auto& panel : hulls.on.panel) {
+    const Eigen::Vector3d& at = of(panel);
+    flat.insert(flat.end(), at.data(), at.data() + 3);
+  }
+  file.write(name, flat, {hulls.on.panel.size(), 3});
+  file.attach_dimension(name, 0, "/panel");
+  file.attach_dimension(name, 1, "/space");
+  describe(file, name, units, meaning);
+}
+
+/// NaN after the last corner of panels that have fewer than others.
+void write_corners(Hdf5Writer& file, const HullPressures& hulls) {
+  std::size_t most = 0;
+  for (const auto& panel : hulls.on.panel) most = std::max(most, panel.corners.size());
+  std::vector<double> flat, number;
+  for (std::size_t c = 1; c <= most; ++c) number.push_back(static_cast<double>(c));
+  for (const auto& panel : hulls.on.panel) {
+    for (const Eigen::Vector3d& corner : panel.corners) flat.insert(flat.end(), corner.data(), corner.data() + 3);
+    flat.insert(flat.end(), 3 * (most - panel.corners.size()), std::numeric_limits<double>::quiet_NaN());
+  }
+  write_dimension(file, "/corner", number, "1", "of a panel, anticlockwise seen from the water");
+  file.write("/panel_corner", flat, {hulls.on.panel.size(), most, 3});
+  for (const auto& [axis, dimension] : {std::pair(0, "/panel"), std::pair(1, "/corner"), std::pair(2, "/space")})
+    file.attach_dimension("/panel_corner", static_cast<std::size_t>(axis), dimension);
+  describe(file, "/panel_corner", "m", "corners of the panel, global; not a number after its last");
+}
+
+void write_pressure(Hdf5Writer& file, const std::string& name, const Eigen::VectorXcd& values,
+                    const std::string& meaning) {
+  std::vector<double> flat;
+  for (const std::complex<double>& p : values) flat.insert(flat.end(), {p.real(), p.imag()});
+  file.write(name, flat, {static_cast<std::size_t>(values.size()), 2});
+  file.attach_dimension(name, 0, "/panel");
+  file.attach_dimension(name, 1, "/complex");
+  describe(file, name, "Pa/m", meaning + " per metre of wave amplitude");
+}
+
+void write_pressures(Hdf5Writer& file, const HullPressures& hulls) {
+  using hydro::potential::WetPanel;
+  std::vector<double> number, body, area;
+  for (const WetPanel& panel : hulls.on.panel) {
+    number.push_back(static_cast<double>(number.size() + 1));
+    body.push_back(panel.body + 1.0);
+    area.push_back(panel.area);
+  }
+  file.attribute("/", "pressure_error", hulls.on.estimate);
+  write_dimension(file, "/panel", number, "1", "of the hulls under still water");
+  file.write_texts("/space", std::array<std::string, 3>{"x", "y", "z"});
+  file.make_dimension("/space");
+  file.write_texts("/hull", hulls.bodies);
+  file.make_dimension("/hull");
+  const auto write_of_panels = [&](const std::string& name, const std::vector<double>& values, const std::string& unit,
+                                   const std::string& meaning) {
+    file.write(name, values, {values.size()});
+    file.attach_dimension(name, 0, "/panel");
+    describe(file, name, unit, meaning);
+  };
+  write_of_panels("/panel_body", body, "1", "whose hull it is, as `hull` counts them from 1");
+  write_of_panels("/panel_area", area, "m^2", "area of the panel");
+  write_in_space(
+      file, "/panel_centre", hulls, [](const WetPanel& p) -> const auto& { return p.centre; }, "m",
+      "centre of the panel, global");
+  write_in_space(
+      file, "/panel_normal", hulls, [](const WetPanel& p) -> const auto& { return p.normal; }, "1",
+      "out of the body, of unit length");
+  write_corners(file, hulls);
+  write_pressure(file, "/pressure", hulls.on.dynamic, "dynamic pressure at the centre of the panel");
+  write_pressure(file, "/hydrostatic_pressure", hulls.on.hydrostatic,
+                 "change of the hydrostatic pressure that the moving panel meets");
+}
+
+}  // namespace
+
 void FreeSurface::write(const std::filesystem::path& path) const {
   Hdf5Writer file(provenance.packing);
   Provenance with_notes = provenance;
@@ -286,6 +367,7 @@ void FreeSurface::write(const std::filesystem::path& path) const {
     file.attach_dimension(dataset, 2, "/complex");
     describe(file, dataset, part.units, part.long_name);
   }
+  if (pressure) write_pressures(file, *pressure);
   file.save(path);
 }
 

@@ -166,6 +166,14 @@ hydro::potential::WaveField field_of_hulls(const Scene& scene, const std::vector
   hydro::potential::WaveField field =
       scene::placed(r.place, [&] { return hp::wave_field(r.bodies, scene.water, there, r.options); });
   for (Eigen::VectorXcd* part : {&field.incident, &field.scattered, &field.radiated}) *part *= phase;
+  if (!field.on_hulls) return field;
+  field.on_hulls->dynamic *= phase;
+  field.on_hulls->hydrostatic *= phase;
+  const Eigen::Vector3d way(r.from_origin.x(), r.from_origin.y(), 0);
+  for (hydro::potential::WetPanel& panel : field.on_hulls->panel) {
+    panel.centre += way;
+    for (Eigen::Vector3d& corner : panel.corners) corner += way;
+  }
   return field;
 }
 

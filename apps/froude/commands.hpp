@@ -261,7 +261,10 @@ struct RaoArguments : SceneArguments {
 };
 void rao(const RaoArguments& arguments, const Console& console);
 void modes(const SceneArguments& arguments, const Console& console);
-void field(const SceneArguments& arguments, const Console& console);
+struct FieldArguments : SceneArguments {
+  std::optional<Path> pressure_csv = {};  ///< one row for each panel
+};
+void field(const FieldArguments& arguments, const Console& console);
 struct StabilityArguments : SceneArguments {
   std::string check = {};        ///< "time": some cells by runs; empty: none
   int check_cells = 6;           ///< spread over the map

@@ -7,6 +7,7 @@
 #include "froude/report.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/io/hdf5.hpp"
+#include "hydro/io/trial.hpp"
 #include "interchange/csv.hpp"
 #include "interchange/matlab.hpp"
 #include "interchange/vtk.hpp"
@@ -173,6 +174,27 @@ scene::Scene scene_of(const ExportArguments& a, const Path& result) {
   }
 }
 
+bool is_field(const Path& result) {
+  if (result.extension() != ".h5" && result.extension() != ".nc") return false;
+  return hydro::io::read_tried(result, [&] {
+    const hydro::io::Hdf5Reader file(result);
+    return file.has_attribute("/", "kind") && file.text_attribute("/", "kind") == "froude field";
+  });
+}
+
+Report export_field(const ExportArguments& a, const Export& one, const TimeWindow& window) {
+  constexpr std::size_t instants = 24;  // 15 degrees of phase from one to the next
+  if (!a.signals.empty() || !window.is_whole())
+    throw InputError("--signal, --from, --to and --every do not apply to the .pvd of a field, which has one period",
+                     {.file = "command line"}, "leave them out");
+  const auto written = interchange::write_field_vtk(one.output, one.result, instants);
+  Report out;
+  out.say("{}: {} instants of one period, {} files with {:.1f} MB in {}", one.result.string(),
+          fact("instants", instants), fact("files", written.files), fact("megabytes", written.megabytes),
+          interchange::folder_of_instants(one.output).string());
+  return out.wrote(one.output);
+}
+
 Report export_space(const ExportArguments& a, const Export& one, const TimeWindow& window) {
   if (!a.signals.empty())
     throw InputError("--signal chooses signals, and .pvd shows bodies, lines and waves", {.file = "command line"},
@@ -210,8 +232,9 @@ void export_results(const ExportArguments& arguments, const Console& console) {
   check(all);
   Report told;
   for (const Export& one : all)
-    told.one_of("exports", one.output.extension() == ".pvd" ? export_space(arguments, one, window)
-                                                            : export_numbers(arguments, one, window));
+    told.one_of("exports", one.output.extension() != ".pvd" ? export_numbers(arguments, one, window)
+                           : is_field(one.result)           ? export_field(arguments, one, window)
+                                                            : export_space(arguments, one, window));
   tell(told, console);
 }
 

@@ -7,6 +7,7 @@
 
 #include "answers/answers.hpp"
 #include "answers/picture.hpp"
+#include "froude/hull_pressures.hpp"
 #include "froude/report.hpp"
 #include "froude/scene_result.hpp"
 #include "hydro/base/types.hpp"
@@ -26,6 +27,21 @@ Extreme extreme(const FreeSurface& surface, bool highest) {
     if (std::isfinite(amplitude) && (highest ? amplitude > out.amplitude : amplitude < out.amplitude))
       out = {amplitude, surface.x[p % surface.x.size()], surface.y[p / surface.x.size()]};
   }
+  return out;
+}
+
+/// The panel with the largest dynamic pressure.
+Report highest_pressure(const HullPressures& hulls) {
+  Eigen::Index at = 0;
+  const double highest = hulls.on.dynamic.cwiseAbs().maxCoeff(&at);
+  const auto& panel = hulls.on.panel[static_cast<std::size_t>(at)];
+  Report out;
+  out.say(
+      "pressure at {} panels, highest {:.4g} Pa per metre of wave amplitude, on {} at ({:.4g}, {:.4g}, {:.4g}) m; "
+      "estimated error {:.2g} of that",
+      fact("panels", hulls.on.panel.size()), fact("amplitude_Pa_m", highest),
+      fact("body", hulls.bodies[static_cast<std::size_t>(panel.body)]), fact("x_m", panel.centre.x()),
+      fact("y_m", panel.centre.y()), fact("z_m", panel.centre.z()), fact("error", hulls.on.estimate));
   return out;
 }
 
@@ -53,6 +69,7 @@ Report report_of(const scene::Scene& scene, const FreeSurface& surface, const Pa
       fact("x_N_m2", surface.drift_x), fact("y_N_m2", surface.drift_y), fact("taken_W_m2", surface.power_taken),
       fact("sent_out_W_m2", surface.power_sent_out));
   out.part("mean_drift", std::move(mean));
+  if (surface.pressure) out.part("pressure", highest_pressure(*surface.pressure));
   out.say("estimated error {:.2g} of the highest, accuracy asked {:.2g}", fact("error", surface.estimate),
           fact("asked", scene.accuracy.value));
   return out.sentences("notes", "note: {}", surface.notes).say("wrote {}", fact("file", file.string()));
@@ -71,6 +88,43 @@ void write_csv(const Path& path, const FreeSurface& surface) {
   hydro::io::write_csv(path,
                        {{"x", "m", &x}, {"y", "m", &y}, {"amplitude", "m/m", &amplitude}, {"phase", "rad", &phase}},
                        {"points in bodies, and where nothing is told, have no row"});
+}
+
+void write_pressure_csv(const Path& path, const HullPressures& hulls) {
+  std::vector<double> body, area, amplitude, phase, hydrostatic, phase_of_hydrostatic;
+  std::array<std::vector<double>, 3> centre, normal;
+  for (std::size_t i = 0; i < hulls.on.panel.size(); ++i) {
+    const hydro::potential::WetPanel& panel = hulls.on.panel[i];
+    const auto at = static_cast<Eigen::Index>(i);
+    body.push_back(panel.body + 1.0);
+    area.push_back(panel.area);
+    for (std::size_t k = 0; k < 3; ++k) {
+      centre[k].push_back(panel.centre[static_cast<Eigen::Index>(k)]);
+      normal[k].push_back(panel.normal[static_cast<Eigen::Index>(k)]);
+    }
+    amplitude.push_back(std::abs(hulls.on.dynamic[at]));
+    phase.push_back(std::arg(hulls.on.dynamic[at]));
+    hydrostatic.push_back(std::abs(hulls.on.hydrostatic[at]));
+    phase_of_hydrostatic.push_back(std::arg(hulls.on.hydrostatic[at]));
+  }
+  std::vector<std::string> comments{
+      "pressures per metre of wave amplitude, Re(p exp(+i omega t)), of a wave with its crest at the origin at t = 0"};
+  for (std::size_t b = 0; b < hulls.bodies.size(); ++b)
+    comments.push_back(fmt::format("body {} is {}", b + 1, hulls.bodies[b]));
+  hydro::io::write_csv(path,
+                       {{"body", "", &body},
+                        {"x", "m", &centre[0]},
+                        {"y", "m", &centre[1]},
+                        {"z", "m", &centre[2]},
+                        {"normal_x", "", &normal[0]},
+                        {"normal_y", "", &normal[1]},
+                        {"normal_z", "", &normal[2]},
+                        {"area", "m^2", &area},
+                        {"pressure", "Pa/m", &amplitude},
+                        {"phase", "rad", &phase},
+                        {"hydrostatic_pressure", "Pa/m", &hydrostatic},
+                        {"phase_of_hydrostatic_pressure", "rad", &phase_of_hydrostatic}},
+                       comments);
 }
 
 /// Of each point of the grid one number.
@@ -95,14 +149,17 @@ plot::Figure figure(const scene::Scene& scene, const FreeSurface& surface) {
 
 }  // namespace
 
-void field(const SceneArguments& arguments, const Console& console) {
+void field(const FieldArguments& arguments, const Console& console) {
   const scene::Scene scene = scene::read(arguments.scene);
   require_asked(scene.field.has_value(), scene, "field",
                 "field = { period = \"4 s\", x = \"-30 m .. 30 m, 61 values\", y = \"-30 m .. 30 m, 61 values\" }");
-  const Path file = checked_output(arguments, ".field.h5");
+  require_asked(scene.field->pressure || !arguments.pressure_csv, scene,
+                "pressure on hulls, which --pressure-csv writes", "field = { …, pressure = true }");
+  const Path file = checked_output(arguments, ".field.h5", {{"--pressure-csv", arguments.pressure_csv}});
   const FreeSurface surface = free_surface(scene);
   surface.write(file);
   if (arguments.csv) write_csv(*arguments.csv, surface);
+  if (arguments.pressure_csv) write_pressure_csv(*arguments.pressure_csv, *surface.pressure);
   if (arguments.picture) plot::write_picture(*arguments.picture, figure(scene, surface));
   tell(report_of(scene, surface, file), console);
 }

@@ -121,9 +121,11 @@ void add_field(CLI::App& app, Request& request) {
   auto* command = app.add_subcommand(
       "field", "the free surface about bodies of cylinders or meshes in one regular wave, on a grid");
   command->footer("Example:\n  froude field examples/farm.toml -o field.h5 --picture field.png");
-  auto arguments = std::make_shared<SceneArguments>();
+  auto arguments = std::make_shared<FieldArguments>();
   command->add_option("scene", arguments->scene, "scene file (.toml)")->required();
   add_scene_outputs(*command, "field", *arguments);
+  command->add_option("--pressure-csv", arguments->pressure_csv,
+                      "pressures on hulls as a CSV table, one row for each panel; the scene asks for them");
   calls(*command, request, arguments, field);
 }
 

@@ -1,14 +1,11 @@
 #include "interchange/vtk.hpp"
 
-#include <fmt/format.h>
-
 #include <cmath>
 #include <complex>
+#include <optional>
 
-#include "answers/plot.hpp"
 #include "hydro/base/error.hpp"
-#include "hydro/io/atomic_file.hpp"
-#include "interchange/grid.hpp"
+#include "interchange/collection.hpp"
 
 namespace froude::interchange {
 namespace {
@@ -17,15 +14,6 @@ namespace fs = std::filesystem;
 using Eigen::Vector3d;
 
 constexpr int cells_along_a_side = 96;  // of the water, as reports have it
-
-/// What of a view is drawn as one kind of cell, with its values at any frame.
-class Part {
- public:
-  virtual ~Part() = default;
-  virtual std::string name() const = 0;
-  virtual std::vector<std::string> names() const { return {}; }
-  virtual Grid at(std::size_t frame) const = 0;
-};
 
 class Bodies : public Part {
  public:
@@ -155,51 +143,21 @@ class Water : public Part {
 
 }  // namespace
 
-fs::path folder_of_instants(const fs::path& collection) {
-  return collection.parent_path() / (collection.stem().string() + "_vtk");
-}
-
 VtkFiles write_vtk(const fs::path& collection, const view::View& v, const std::vector<double>& time) {
   hydro::ensure(time.size() == v.frames().count(), "write_vtk: one time a frame");
-  const fs::path folder = folder_of_instants(collection);
-  std::error_code failed;
-  fs::create_directories(folder, failed);
-  if (failed)
-    throw hydro::InputError(fmt::format("cannot make the folder \"{}\": {}", folder.string(), failed.message()), {},
-                            "choose a folder that you may write to");
-  VtkFiles out;
-  const auto write = [&out](const fs::path& path, const std::string& text) {
-    hydro::io::write_atomically(path, text);
-    ++out.files, out.megabytes += static_cast<double>(text.size()) / 1e6;
-  };
-  std::string instants, names = "part,number,name\n";
-  const auto add = [&](const Part& part, std::size_t number) {
-    const std::vector<std::string> of_part = part.names();
-    for (std::size_t i = 0; i < of_part.size(); ++i) names += fmt::format("{},{},{}\n", part.name(), i + 1, of_part[i]);
-    for (std::size_t f = 0; f < time.size(); ++f) {
-      const std::string name = fmt::format("{}_{:06}.vtu", part.name(), f);
-      write(folder / name, vtu_of(part.at(f), time[f]));
-      instants += fmt::format("<DataSet timestep=\"{}\" part=\"{}\" name=\"{}\" file=\"{}/{}\"/>\n", time[f], number,
-                              part.name(), plot::escaped(folder.filename().string()), name);
-    }
-  };
-  std::size_t parts = 0;
   const Bodies bodies(v);
   const Lines lines(v);
-  if (!v.scene().bodies.empty()) add(bodies, parts++);
-  if (!v.lines().empty()) add(lines, parts++);
+  std::vector<const Part*> parts;
+  if (!v.scene().bodies.empty()) parts.push_back(&bodies);
+  if (!v.lines().empty()) parts.push_back(&lines);
+  std::optional<Water> water;
   if (v.surface()) {
     Eigen::AlignedBox3d around;
     for (const Part* part : {static_cast<const Part*>(&bodies), static_cast<const Part*>(&lines)})
       for (const Vector3d& p : part->at(0).points) around.extend(p);
-    add(Water(*v.surface(), time, around), parts++);
+    parts.push_back(&water.emplace(*v.surface(), time, around));
   }
-  write(folder / "names.csv", names);
-  write(collection,
-        "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n"
-        "<Collection>\n" +
-            instants + "</Collection>\n</VTKFile>\n");
-  return out;
+  return write_collection(collection, parts, time);
 }
 
 }  // namespace froude::interchange

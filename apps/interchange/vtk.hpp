@@ -1,5 +1,5 @@
 #pragma once
-/// \file  Runs in space for ParaView and other programs that read VTK's XML files.
+/// \file  Runs and fields in space for ParaView and other programs that read VTK's XML files.
 #include <cstddef>
 #include <filesystem>
 #include <vector>
@@ -24,5 +24,13 @@ std::filesystem::path folder_of_instants(const std::filesystem::path& collection
 /// the names of bodies and lines by these numbers. The collection is written last; files in its folder that are of
 /// other collections stay. \throws hydro::InputError if they cannot be written
 VtkFiles write_vtk(const std::filesystem::path& collection, const view::View& view, const std::vector<double>& time);
+
+/// The same of a result of `froude field`, over `instants` of one period of the wave, of unit amplitude: its surface
+/// with its elevation and amplitude, m/m, without cells that have a corner where nothing is told; and where the result
+/// has pressures the hulls, as triangles, with the number of their body, dynamic pressure at the instant, its
+/// amplitude, and the change of hydrostatic pressure, Pa/m. The hulls stand where they are at rest. \throws
+/// hydro::InputError if `result` is none of a field, or files cannot be written
+VtkFiles write_field_vtk(const std::filesystem::path& collection, const std::filesystem::path& result,
+                         std::size_t instants);
 
 }  // namespace froude::interchange

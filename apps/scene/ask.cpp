@@ -197,6 +197,19 @@ Binding<AskField> field() {
                        "within a panel of a hull; left out: none is")
                     .within(Limit::open_fraction),
                 &AskField::accepted_error)
+      .optional(effect("pressure",
+                       "the pressure of the water on hulls, at the centres of their panels, for bodies of meshes whose "
+                       "panels are solved together"),
+                [](const Value& pressure, AskField& asked) {
+                  asked.pressure = true;
+                  asked.pressure_place = pressure.place;
+                })
+      .optional(number("accepted_pressure_error",
+                       "of the pressure over its largest, that is taken where the [ask] accuracy is missed; left out: "
+                       "none is")
+                    .within(Limit::open_fraction)
+                    .only_beside("pressure"),
+                &AskField::accepted_pressure_error)
       .place(&AskField::place)
       .then(check_grid);
 }

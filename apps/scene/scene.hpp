@@ -498,6 +498,9 @@ struct AskField {
   std::vector<double> x, y;   ///< global, m, increasing, two each at least
   bool held = false;          ///< bodies are held still; else they move as their responses are
   double accepted_error = 0;  ///< of the elevation over its largest, taken where `accuracy` is missed
+  bool pressure = false;      ///< on hulls is told too
+  Place pressure_place = {};
+  double accepted_pressure_error = 0;  ///< of the pressure over its largest, as accepted_error
   Place place;
 };
 struct AskRun {

@@ -1,13 +1,16 @@
 """`froude field`: the free surface about bodies. Usage: field_test.py FROUDE SOURCE"""
+import base64
 import cmath
 import csv
 import json
 import math
 import shutil
+import struct
 import subprocess
 import sys
 import tempfile
 import unittest
+import xml.etree.ElementTree as xml
 from pathlib import Path
 
 FROUDE, SOURCE = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
@@ -85,6 +88,63 @@ class Field(unittest.TestCase):
                 # What is printed has ten digits; the phase, of 130 m, is as good as the wavenumber.
                 self.assertLess(abs(a * phase - b), 1e-7)
 
+    def pressures(self, scene):
+        """Of each panel: centre, normal, area, dynamic and hydrostatic pressure."""
+        done = self.froude(scene, "--pressure-csv", "hulls.csv")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        lines = (self.folder / "hulls.csv").read_text().splitlines()
+        self.assertIn("# body 1 is float", lines)
+        rows = [[float(v) for v in line.split(",")] for line in lines if line[0].isdigit()]
+        self.assertEqual({row[0] for row in rows}, {1})
+        return [(row[1:4], row[4:7], row[7], cmath.rect(*row[8:10]), cmath.rect(*row[10:12])) for row in rows]
+
+    def test_pressures_move_along_and_accelerate_the_body(self):
+        """Heave has neither damper nor mooring, so that pressures alone carry it: Newton's law at the centre of gravity."""
+        more, way = ", pressure = true", (130, -70)
+        here, there = (self.pressures(self.scene(MESH, at, more=more)) for at in ((0, 0), way))
+        phase = cmath.exp(-1j * wavenumber() * (way[0] * math.cos(HEADING) + way[1] * math.sin(HEADING)))
+        largest = max(abs(p) for *_, p, _ in here)
+        for a, b in zip(here, there):
+            self.assertLess(math.dist([a[0][0] + way[0], a[0][1] + way[1], a[0][2]], b[0]), 1e-9)
+            self.assertLess(abs(a[3] * phase - b[3]), 1e-7 * largest)
+            self.assertLess(abs(a[4] * phase - b[4]), 1e-7 * largest)
+        heave = -sum((dynamic + still) * normal[2] * area for _, normal, area, dynamic, still in here)
+        # A float that keeps its waterplane level in roll: the still water's pressure tells how any place of it rises.
+        (x, _, _), *_, first = here[0]
+        far = max(here, key=lambda panel: abs(panel[0][0] - x))
+        mirrored = next(p for p in here if math.dist(p[0], [far[0][0], -far[0][1], far[0][2]]) < 1e-6)
+        opposite = next(p for p in here if math.dist(p[0], [x, -here[0][0][1], here[0][0][2]]) < 1e-6)
+        a, b = (first + opposite[4]) / 2, (far[4] + mirrored[4]) / 2  # on the middle line
+        rise = (a + (b - a) * (-0.46 - x) / (far[0][0] - x)) / (-1025 * 9.81)
+        inertia = -OMEGA ** 2 * 258.319e3 * rise
+        # Coefficients of 5e-2 of their modes, and pressures as good; the restoring that both share is larger.
+        restoring = 1025 * 9.81 * 24 * 9 * abs(rise)
+        self.assertGreater(abs(rise), 0.1)
+        self.assertLess(abs(heave - inertia), 0.05 * restoring)
+
+    def test_is_exported_with_its_hulls_over_a_period(self):
+        done = self.froude(self.scene(MESH, more=', bodies = "held", pressure = true'))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        export = [str(FROUDE), "export", "field.h5", "-o", "field.pvd"]
+        done = subprocess.run(export, cwd=self.folder, capture_output=True, text=True, timeout=60)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        listed = xml.parse(self.folder / "field.pvd").getroot().findall("Collection/DataSet")
+        self.assertEqual([one.get("name") for one in listed], 24 * ["surface"] + 24 * ["hulls"])
+        self.assertAlmostEqual(float(listed[12].get("timestep")), math.pi / OMEGA, places=12)  # half a period
+        self.assertEqual((self.folder / "field_vtk/names.csv").read_text(), "part,number,name\nhulls,1,float\n")
+        first, half = (xml.parse(self.folder / listed[24 + i].get("file")).getroot() for i in (0, 12))
+
+        def cells(grid, name):  # under eight bytes of their length, numbers of four
+            bytes_of = base64.b64decode(grid.find(f".//CellData/DataArray[@Name='{name}']").text)
+            return struct.unpack(f"<{(len(bytes_of) - 8) // 4}f", bytes_of[8:])
+
+        self.assertGreater(max(cells(first, "amplitude")), 5000)
+        for a, b in zip(cells(first, "pressure"), cells(half, "pressure")):
+            self.assertAlmostEqual(a, -b, delta=1e-2)  # seven digits of ten thousand
+        done = subprocess.run([*export, "--every", "1 s"], cwd=self.folder, capture_output=True, text=True, timeout=60)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("do not apply to the .pvd of a field", done.stderr)
+
     def test_of_bodies_that_move_differs_from_that_of_bodies_held_still(self):
         free = self.elevations(self.scene(CYLINDER))
         held = self.elevations(self.scene(CYLINDER, more=', bodies = "held"'))
@@ -112,7 +172,11 @@ class Field(unittest.TestCase):
                 (self.scene('file = "pontoon5.nc"\nbody = 1'), "coefficients come from a file"),
                 (self.scene(CYLINDER).replace("-20 m .. 30 m, 3 values", "-20 m .. -20 m, 1 values"), "a grid needs two"),
                 (self.scene(CYLINDER).replace('omega = "1.2 rad/s", heading', "heading"), "omega"),
-                (near, "is known to")):
+                (near, "is known to"),
+                (self.scene(CYLINDER, more=", pressure = true"), "the pressure on bodies of cylinders is not told"),
+                (self.scene(MESH, more=', bodies = "held", pressure = true').replace("accuracy = 5e-2", "accuracy = 1e-2"),
+                 "the pressure is known to"),
+                (self.scene(MESH, more=", accepted_pressure_error = 0.1"), "acts only beside")):
             with self.subTest(said=said):
                 done = self.froude(scene)
                 self.assertEqual(done.returncode, 2, done.stdout + done.stderr)

@@ -9,7 +9,7 @@ from pathlib import Path
 from documents import commands_of
 
 FROUDE, SOURCE = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
-PAGES = {"experiments.md": 6, "export.md": 6, "field.md": 2, "tank-day.md": 4, "lines.md": 4, "response.md": 4, "spectra.md": 3, "stability.md": 2}  # and how many commands at least
+PAGES = {"experiments.md": 6, "export.md": 6, "field.md": 3, "tank-day.md": 4, "lines.md": 4, "response.md": 4, "spectra.md": 3, "stability.md": 2}  # and how many commands at least
 HAS_REPORTS = "has no reports" not in subprocess.run(
     [str(FROUDE), "report", "x.h5", "-o", "x.html"], capture_output=True, text=True, check=False).stderr
 if HAS_REPORTS:  # an optional part of a build

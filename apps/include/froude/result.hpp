@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -243,6 +244,7 @@ struct StabilityMap {
 std::string name_of(StabilityMap::Reached reached);
 
 /// The free surface about the bodies of a scene in one regular wave, on a grid.
+struct HullPressures;  // hull_pressures.hpp
 struct FreeSurface {
   double omega, heading;     ///< rad/s; rad, where the wave goes
   bool held;                 ///< bodies are held still
@@ -254,11 +256,13 @@ struct FreeSurface {
   /// To second order, per m² of wave amplitude, by the momentum of waves far away, on all bodies together: N/m² along x
   /// and y; W/m², what the bodies take from the waves, and what they scatter and radiate.
   double drift_x = 0, drift_y = 0, power_taken = 0, power_sent_out = 0;
-  std::vector<std::string> notes;  ///< what had to be decided, and what is left out
-  Provenance provenance = {};      ///< without the notes
+  std::vector<std::string> notes;                      ///< what had to be decided, and what is left out
+  Provenance provenance = {};                          ///< without the notes
+  std::shared_ptr<const HullPressures> pressure = {};  ///< on hulls, where the scene asks for it
 
   const std::vector<std::complex<double>>& elevation() const { return signals.front().values; }
-  /// Dimensions `y`, `x` and `complex`. \throws hydro::InputError if the file cannot be written
+  /// Dimensions `y`, `x` and `complex`; of pressures `panel`, `corner`, `space` and `complex`.
+  /// \throws hydro::InputError if the file cannot be written
   void write(const std::filesystem::path& path) const;
 };
 

@@ -2,6 +2,7 @@
 
 #include "discretisation.hpp"
 #include "potential/solver_request.hpp"
+#include "refine.hpp"
 #include "request.hpp"
 
 namespace hydro::panels {
@@ -17,6 +18,7 @@ potential::WaveField wave_field(const std::vector<HullBody>& bodies, const Water
   const potential::WaveField before = coarse->solver()->field(question, threads);
   potential::WaveField out = coarse->refined()->solver()->field(question, threads);
   out.estimate = difference(before, out);
+  if (out.on_hulls) out.on_hulls->estimate = difference(*before.on_hulls, *out.on_hulls, &pieces_when_refined);
   if (const auto more = coarse->with_more_partial_waves())
     out.estimate += difference(before, more->field(question, threads));
   return out;

@@ -147,6 +147,9 @@ class ArraySolver : public Solver {
     return out;
   }
   potential::WaveField field(const potential::FieldQuestion& question, int threads) const override {
+    if (question.pressure)
+      throw InputError("pressures on hulls are not told where hulls are joined by partial waves", {},
+                       "solve all panels together: mesh_interaction = \"panels\" in a scene");
     const PartialWaves waves = waves_at(question.omega);
     const cylinders::Groups all =
         groups(places_->circle, places_->kind_of, places_->lattice, waves, solved(question.omega, {question.heading}));

@@ -37,6 +37,7 @@ Model::Model(PanelMesh mesh, const std::vector<HullBody>& bodies, const Water& w
       all_(all_panels(mesh_, bodies)),
       parts_(rankine_parts(mesh_, all_, water.depth)) {
   reach_ = reach_of(all_, mesh_);
+  for (const HullBody& body : bodies) reference_point_.push_back(body.reference_point);
 }
 
 /// cosh k(z+h)/cosh kh.

@@ -17,6 +17,8 @@ class Model {
 
   const PanelMesh& mesh() const { return mesh_; }
   const AllPanels& all() const { return all_; }
+  /// Of motions and moments of the bodies, m.
+  const std::vector<Eigen::Vector3d>& reference_points() const { return reference_point_; }
   /// Centres of all panels, then of all images of the lid, (rows, 3); without the latter if K = +∞, where there is no
   /// lid.
   Eigen::MatrixXd points(double K) const;
@@ -41,6 +43,7 @@ class Model {
 
   PanelMesh mesh_;
   Water water_;
+  std::vector<Eigen::Vector3d> reference_point_;
   AllPanels all_;
   RankineParts parts_;
   double reach_ = 0;

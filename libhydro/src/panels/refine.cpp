@@ -83,6 +83,8 @@ PanelMesh cut(const PanelMesh& mesh, Add add) {
 
 }  // namespace
 
+std::size_t pieces_when_refined(std::size_t corners) { return corners > 3 ? corners : 4; }
+
 PanelMesh refined(const PanelMesh& mesh) { return cut(mesh, add_cut_in_middle); }
 
 PanelMesh graded(const PanelMesh& mesh, int times) {

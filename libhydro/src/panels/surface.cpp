@@ -7,6 +7,7 @@
 
 #include "hydro/base/parallel.hpp"
 #include "hydro/waves/dispersion.hpp"
+#include "pressure.hpp"
 
 namespace hydro::panels {
 namespace {
@@ -75,6 +76,7 @@ potential::WaveField field_of(const Model& model, const Water& water, const pote
                            .radiated = Eigen::VectorXcd::Zero(points),
                            .known = outside(mesh, question.point)};
   out.far = model.far_field(phi, question.omega, question.heading, velocity);
+  if (question.pressure) out.on_hulls = pressure_of(model, water, question, phi);
   const Complex elevation = Complex(0, -question.omega / water.gravity) / (4 * pi);
   in_parallel(out.known.size(), threads, [&](std::size_t i) {
     if (!out.known[i]) return;

@@ -12,7 +12,8 @@ namespace hydro::panels {
 /// circle about a hull. Nothing is told inside a waterline. `estimate` is what cutting panels in four has changed, with
 /// what more partial waves change; within a panel's size of a hull it is large. The first panels are those of the
 /// meshes, cut in four until waves allow them; with a tolerance in `options` partial waves are chosen by it. \throws
-/// InputError as solve(), and as potential::check()
+/// InputError as solve(), and as potential::check(); if pressures are asked for of hulls that partial waves join. These
+/// are of the finer panels, (G22)
 potential::WaveField wave_field(const std::vector<HullBody>& bodies, const Water& water,
                                 const potential::FieldQuestion& question, const Options& options = {});
 

@@ -6,9 +6,11 @@
 #include <Eigen/Core>
 
 #include <complex>
+#include <optional>
 #include <vector>
 
 #include "hydro/potential/far_field.hpp"
+#include "hydro/potential/hull_pressure.hpp"
 
 namespace hydro::potential {
 
@@ -18,6 +20,7 @@ struct FieldQuestion {
   double heading;           ///< rad, where the wave goes
   Eigen::VectorXcd motion;  ///< (6N), of the bodies about their reference points, m/m and rad/m; zeros: held still
   Eigen::MatrixX2d point;   ///< x and y, global, m
+  bool pressure = false;    ///< on hulls too; only of panels that are solved together
 };
 
 /// The surface at these points.
@@ -31,7 +34,8 @@ struct WaveField {
   /// How far the surface is off by what the method truncates: the largest difference at a known point that a finer
   /// computation makes, over the largest elevation.
   double estimate = 0;
-  FarField far = {};  ///< the same waves far away
+  FarField far = {};                          ///< the same waves far away
+  std::optional<HullPressure> on_hulls = {};  ///< where it is asked for
 
   Eigen::VectorXcd total() const { return incident + scattered + radiated; }
 };
