@@ -353,7 +353,10 @@ class MorisonFits final : public FitKindOf<MorisonModel, ::fit::morison::Problem
   }
 
   Remedy remedy(const FitScene& scene, const ::fit::morison::Problem&, const Solution&) const override {
-    return {.text = fmt::format("write force = \"-{}\" among the channels, or turn the motion", scene.force[0].column)};
+    return {.text =
+                fmt::format("write force = \"-{}\" among the channels, turn the motion, or give the header of {} the "
+                            "unit that its numbers are in",
+                            scene.force[0].column, scene.force[0].column)};
   }
 
   std::string table(const ::fit::morison::Problem&, const Solution& solution) const override {

@@ -6,11 +6,15 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <optional>
 
+#include "fit/differentiate.hpp"
+#include "fit/verdict.hpp"
 #include "hydro/base/dense.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/signal/distributions.hpp"
 #include "restored_body.hpp"
+#include "swings.hpp"
 
 namespace fit {
 namespace {
@@ -69,7 +73,12 @@ Coefficient judged(Coefficient c) {
   return c;
 }
 
-std::vector<Extreme> find_extremes(std::span<const double> time, std::span<const double> x, double least) {  // (F34)
+namespace {
+
+/// Extremes of swings that go beyond `least` of the largest, or beyond `least_value` where that is more, on either side
+/// of the rest position: what noise does about that position is no swing. (F34)
+std::vector<Extreme> extremes_beyond(std::span<const double> time, std::span<const double> x, double least,
+                                     double least_value) {
   hydro::require(time.size() == x.size() && x.size() >= 16, "extremes need 16 samples at least, got {}", x.size());
   // The rest position, roughly: the mean of the last third, where swings are small.
   const std::size_t tail = x.size() - x.size() / 3;
@@ -77,22 +86,46 @@ std::vector<Extreme> find_extremes(std::span<const double> time, std::span<const
                       static_cast<double>(x.size() - tail);
   double largest = 0;
   for (const double v : x) largest = std::max(largest, std::abs(v - rest));
+  const double beyond = std::max(least * largest, least_value);
   std::vector<Extreme> out;
   std::size_t best = 0;
+  bool crossed = false;  // since the best
   const auto close = [&] {
-    if (std::abs(x[best] - rest) > least * largest) out.push_back(vertex(time, x, best));
+    // A swing that begins with the record and falls from its first sample has no extreme of its own.
+    if (best > 0 && std::abs(x[best] - rest) > beyond) out.push_back(vertex(time, x, best));
   };
   for (std::size_t j = 1; j < x.size(); ++j) {
-    if ((x[j] - rest) * (x[best] - rest) < 0) {
-      // A swing that begins with the record and falls from its first sample has no extreme of its own.
-      if (best > 0) close();
+    const bool across = (x[j] - rest) * (x[best] - rest) < 0;
+    crossed |= across;
+    if (across && std::abs(x[j] - rest) > beyond) {
+      close();
       best = j;
-    } else if (std::abs(x[j] - rest) > std::abs(x[best] - rest)) {
+      crossed = false;
+    } else if (!across && std::abs(x[j] - rest) > std::abs(x[best] - rest)) {
       best = j;
+      crossed = false;
     }
   }
+  if (crossed) close();
   hydro::require(out.size() >= 2, "the record holds {} extremes; two are needed", out.size());
   return out;
+}
+
+}  // namespace
+
+std::vector<Extreme> find_extremes(std::span<const double> time, std::span<const double> x, double least) {
+  return extremes_beyond(time, x, least, 0);
+}
+
+std::vector<Extreme> find_swings(std::span<const double> time, std::span<const double> x) {  // (F34)
+  constexpr double least = 0.03, stands_out = 5, allowed_off = 1e-3;
+  std::vector<Extreme> raw = find_extremes(time, x, least);
+  if (x.size() < 64) return raw;
+  const LocalPolynomial smooth = smoother_of(x, time[1] - time[0]);
+  const auto m = static_cast<std::size_t>(smooth.half_width());
+  std::vector<Extreme> out = extremes_beyond(time.subspan(m, time.size() - 2 * m), smooth.apply(x), least,
+                                             stands_out * noise_in(x, smooth) * smooth.noise_gain());
+  return std::abs(smooth.gain(2 * pi / mean_period(out)) - 1) < allowed_off ? out : raw;
 }
 
 Decrement logarithmic_decrement(std::span<const Extreme> e) {  // (F34)
@@ -170,12 +203,55 @@ void judge(double unknowns, DecayFit& fit) {
 
 }  // namespace
 
+namespace {
+
+/// The swings of a record, or all of its extremes where so few stand out that they tell no damping.
+struct Swings {
+  std::vector<Extreme> extremes;
+  bool stand_out;
+};
+Swings swings_of(const Window& record, std::size_t least) {
+  std::vector<double> time(static_cast<std::size_t>(record.values.rows()));
+  for (std::size_t j = 0; j < time.size(); ++j) time[j] = record.step * static_cast<double>(j);
+  const std::span<const double> values(record.values.data(), time.size());
+  try {
+    if (auto swings = find_swings(time, values); swings.size() >= least) return {std::move(swings), true};
+  } catch (const hydro::InputError&) {  // fewer than two stand out
+  }
+  return {find_extremes(time, values), false};
+}
+
+/// From what energy gives; where that ends nowhere or explains too little, from no damping and from the linear damping
+/// that halves a swing in five as well, and the end with the least cost.
+ShootingFit best_fit(ShootingProblem& problem) {
+  const auto tried = [](const ShootingProblem& p) -> std::optional<ShootingFit> {
+    try {
+      return fit_motion(p);
+    } catch (const hydro::NumericsError&) {
+      return {};
+    }
+  };
+  std::optional<ShootingFit> best = tried(problem);
+  if (best && best->explained[0] >= least_explained) return std::move(*best);
+  const ShootingProblem first = problem;
+  for (const double share : {0.0, std::numbers::ln2 / (5 * pi)}) {
+    ShootingProblem other = first;
+    std::fill(other.start.begin() + 1, other.start.begin() + 5, 0.0);
+    if (other.fitted[1]) other.start[1] = share * 2 * other.start[0];
+    auto end = tried(other);
+    if (!end || (best && best->search.cost_last <= end->search.cost_last)) continue;
+    best = std::move(end);
+    problem = std::move(other);
+  }
+  return best ? std::move(*best) : fit_motion(first);  // which says why it fails
+}
+
+}  // namespace
+
 DecayFit fit_decay(std::span<const Window> records, const DecayOptions& options) {
   hydro::require(!records.empty() && records[0].values.cols() == 1, "a decay needs records of one channel");
-  const auto& first = records[0];
-  std::vector<double> time(static_cast<std::size_t>(first.values.rows()));
-  for (std::size_t j = 0; j < time.size(); ++j) time[j] = first.step * static_cast<double>(j);
-  const auto extremes = find_extremes(time, {first.values.data(), time.size()});
+  const auto [extremes, stand_out] =
+      swings_of(records[0], static_cast<std::size_t>(options.terms.count()) + 3);  // as many as fit_energy() needs
   DecayFit fit{};
   fit.energy = fit_energy(extremes, options.terms, options.confidence);
   const auto terms = chosen(options.terms);
@@ -195,7 +271,8 @@ DecayFit fit_decay(std::span<const Window> records, const DecayOptions& options)
     // What energy takes for negative would feed the motion, and the search with it.
     problem.start[1 + terms[k]] = std::max(0.0, *fit.energy.damping[k].value);
   }
-  fit.motion = fit_motion(problem);
+  if (!stand_out) fit.energy.damping.clear();  // it served for a start, and tells nothing
+  fit.motion = best_fit(problem);
   fit.problem = problem;
   for (const std::size_t k : terms) fit.damping.push_back(judged(fit.motion.parameters[1 + k]));
   const Coefficient& omega = fit.motion.parameters[0];

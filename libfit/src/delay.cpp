@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "convolve.hpp"
 #include "cubic.hpp"
+#include "fit/differentiate.hpp"
 #include "fit/morison.hpp"
 #include "fit/verdict.hpp"
 #include "hydro/base/dense.hpp"
@@ -50,14 +52,65 @@ std::ptrdiff_t nearest_lag(const Eigen::MatrixXd& columns, const Eigen::VectorXd
   return best - static_cast<std::ptrdiff_t>(longest);
 }
 
-/// −d/dt of the force that the coefficients give, by central differences; the ends repeat their neighbours.
-Eigen::VectorXd minus_rate(const Eigen::VectorXd& force, double step) {
-  const Eigen::Index n = force.size();
+/// −d/dt of the force that the coefficients give, by local polynomials that are right within 1 % up to three times the
+/// main frequency. Noise of the motion goes through the columns into that force, and a rate of more bandwidth would be
+/// mostly noise. The ends have central differences, the last samples those of their neighbours.
+Eigen::VectorXd minus_rate(const Eigen::VectorXd& force, double step, double period) {
+  constexpr double reach = 0.087;  // of the period: half a window that keeps 99 % of the third harmonic's rate
+  const Eigen::Index n = force.size(), half = std::clamp<Eigen::Index>(std::lround(reach * period / step), 3, n / 8);
   Eigen::VectorXd rate(n);
   rate.segment(1, n - 2) = (force.head(n - 2) - force.tail(n - 2)) / (2 * step);
   rate[0] = rate[1];
   rate[n - 1] = rate[n - 2];
+  const auto middle =
+      LocalPolynomial(1, static_cast<int>(half), step).apply({force.data(), static_cast<std::size_t>(n)});
+  rate.segment(half, n - 2 * half) = -as_vector(middle);
   return rate;
+}
+
+/// Where `step_at`, samples that a Gauss–Newton step would go from a lag, changes from forward to backward: the one
+/// root about `first`. At a bound that a step would cross: the bound.
+struct FoundLag {
+  double lag;
+  bool beyond;
+};
+template <class F>
+FoundLag find_lag(F step_at, double first, double longest, double step) {
+  double low = first, high = first, at_low = step_at(first), at_high = at_low;
+  // Outwards by ever longer strides: noise of the samples may have put the whole number a few beside the root.
+  for (double stride = 1; at_low < 0; stride *= 2) {
+    if (low == -longest) return {low, true};
+    high = low, at_high = at_low;
+    low = std::max(low - stride, -longest);
+    at_low = step_at(low);
+  }
+  for (double stride = 1; at_high > 0; stride *= 2) {
+    if (high == longest) return {high, true};
+    low = high, at_low = at_high;
+    high = std::min(high + stride, longest);
+    at_high = step_at(high);
+  }
+  constexpr int most_rounds = 100;  // regula falsi after the Illinois rule takes some ten, halving 30
+  constexpr double enough = 1e-6;   // of a sample: far below what any noise leaves of a delay
+  for (int round = 0, kept = 0; round < most_rounds; ++round) {
+    if (at_low == 0 || high - low < enough) return {at_low == 0 ? low : high, false};
+    if (at_high == 0) return {high, false};
+    const double between = (low * at_high - high * at_low) / (at_high - at_low), at_between = step_at(between);
+    if (std::abs(at_between) < enough) return {between, false};
+    if (at_between > 0) {
+      low = between, at_low = at_between;
+      if (kept == 1) at_high /= 2;  // an end that stays is counted half, or it would stay for ever
+      kept = 1;
+    } else {
+      high = between, at_high = at_between;
+      if (kept == -1) at_low /= 2;
+      kept = -1;
+    }
+  }
+  throw SearchFailed(fmt::format("the search for the delay has no end: its steps do not settle between {:.4g} s and "
+                                 "{:.4g} s",
+                                 low * step, high * step),
+                     0);
 }
 
 /// A delay that lies beyond the longest, and all that goes with it.
@@ -116,28 +169,21 @@ DelayedFit fit_morison_and_delay(const Cylinder& cylinder, const ForceRecord& re
     return Eigen::VectorXd(carried +
                            columns * hydro::dense::HouseholderQr(columns).solve(as_vector(aligned.force) - carried));
   };
-  double lag = static_cast<double>(nearest_lag(columns, carried, middle(record.force, 3), longest));
-  // Gauss–Newton on the delay; the coefficients are linear and follow at once.
-  constexpr int most_rounds = 30;
-  bool beyond = false;
-  for (int round = 0;; ++round) {
-    const double bounded = std::clamp(lag, -static_cast<double>(longest), static_cast<double>(longest));
-    beyond = lag != bounded;
-    lag = bounded;
-    if (round == most_rounds && !beyond)
-      throw SearchFailed(
-          fmt::format("the search for the delay has no end: its steps do not settle about {:.4g} s", lag * step), 0);
+  const double period =
+      2 * std::numbers::pi * as_vector(aligned.velocity).norm() / as_vector(aligned.acceleration).norm();
+  const std::ptrdiff_t first = nearest_lag(columns, carried, middle(record.force, 3), longest);
+  const auto column = [&] { return minus_rate(fitted(), step, period); };
+  // The coefficients are linear and follow at once; only the delay is searched for.
+  const auto step_at = [&](double lag) {
     aligned.force = later(record.force, lag, margin);
-    if (round == most_rounds) break;
     Eigen::MatrixXd all(columns.rows(), 3);
-    all << columns, Eigen::VectorXd::Zero(columns.rows());
-    all.col(2) = minus_rate(fitted(), step);
-    const double change = hydro::dense::HouseholderQr(all).solve(as_vector(aligned.force) - carried)[2] / step;
-    if (std::abs(change) < 1e-6) break;
-    lag += std::clamp(change, -5.0, 5.0);
-  }
-  const Eigen::VectorXd column = minus_rate(fitted(), step);
-  result.fit = fit_columns(cylinder, aligned, inner, &column);
+    all << columns, column();
+    return hydro::dense::HouseholderQr(all).solve(as_vector(aligned.force) - carried)[2] / step;
+  };
+  const auto [lag, beyond] = find_lag(step_at, static_cast<double>(first), static_cast<double>(longest), step);
+  aligned.force = later(record.force, lag, margin);
+  const Eigen::VectorXd rate = column();
+  result.fit = fit_columns(cylinder, aligned, inner, &rate);
   Coefficient& delay = *result.fit.delay;
   const double shift = lag * step;
   for (Interval* i : {&delay.interval, &delay.white_interval}) *i = {i->low + shift, i->high + shift};

@@ -192,6 +192,9 @@ Uncertainty uncertainty_of(const SearchReport& search, const Eigen::MatrixXd& co
   const int block = std::max(1, static_cast<int>(shortest_samples / 40));
   Uncertainty u{covariance_by(options.method, columns, residuals, block, period_samples, known), {}, {}, 0, 0, 0};
   u.covariance.covariance = gain * u.covariance.covariance * gain.transpose();
+  // Residuals that are quiet where the columns are make an error smaller than white ones would; the record has no more
+  // samples for that.
+  u.covariance.effective_samples = u.covariance.effective_samples.cwiseMin(static_cast<double>(columns.rows()));
   u.t = hydro::signal::student_t_quantile((1 + options.confidence) / 2, u.covariance.dof);
   u.white_t = hydro::signal::student_t_quantile((1 + options.confidence) / 2, u.covariance.white_dof);
   return u;

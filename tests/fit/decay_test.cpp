@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "fit/problem/decay.hpp"
 #include "hydro/base/error.hpp"
 #include "support/coloured_noise.hpp"
 
@@ -69,6 +70,63 @@ TEST(Extremes, AreReadBetweenSamples) {
   const auto d = fit::logarithmic_decrement(e);
   EXPECT_NEAR(d.offset, 0.4, 1e-3);
   for (const double zeta : d.ratio) EXPECT_NEAR(zeta, 0.1 / 4, 0.003);  // b/(2ω)
+}
+
+/// A roll decay of a minute with white noise, T = 6.4 s.
+fit::Window roll(const std::vector<double>& damping, double noise, std::uint64_t stream) {
+  const double omega = 2 * pi / 6.4;
+  fit::Window w{0.05,
+                fit::follow(MotionLaw::oscillator, std::vector{omega, damping[0], damping[1], 0.0, damping[2], 0.0},
+                            Eigen::Vector2d(0.3, 0), 0.05, 1200, 8)};
+  const auto e = froude_test::ar1_noise(1200, 0, noise, stream);
+  for (Eigen::Index j = 0; j < 1200; ++j) w.values(j, 0) += e[static_cast<std::size_t>(j)];
+  return w;
+}
+
+TEST(Swings, AreAsManyAsThereAreThoughNoiseCrossesTheRestPosition) {
+  for (const double noise : {0.002, 0.008, 0.012})
+    for (std::uint64_t stream = 1; stream <= 5; ++stream) {
+      const auto w = roll({0.05, 0, 0}, noise, stream);
+      fit::decay::Problem problem{
+          .turns = true, .runs = {{.source = {"roll.csv"}, .time = times(w), .motion = {}}}, .body = {}, .options = {}};
+      problem.runs[0].motion.assign(values(w).begin(), values(w).end());
+      problem.options.motion.terms = {.linear = true};
+      const auto solution = fit::decay::solve(problem);
+      ASSERT_FALSE(solution.runs.empty()) << noise;
+      const auto& run = solution.runs[0];
+      // 60 s of T/2 = 3.2 s; the release is no extreme of its own.
+      EXPECT_EQ(run.decrement.amplitude.size(), 17u) << noise;
+      // The polynomial leaves 0.34 of the noise: an extreme is off by that, δ of the first half cycle, where a = 0.3,
+      // by √2 · 0.34 σ/a, and five deviations.
+      EXPECT_NEAR(run.decrement.ratio.front(), 0.05 * 6.4 / (4 * pi),
+                  5 * std::sqrt(2.0) * 0.34 * noise / 0.3 / pi + 1e-3);
+      ASSERT_EQ(run.fit.energy.damping.size(), 1u);
+      EXPECT_NEAR(*run.fit.energy.damping[0].value, 0.05, 5 * run.fit.energy.damping[0].standard_error + 1e-3) << noise;
+    }
+}
+
+TEST(Swings, ThatNoiseHidesTellNoDecrement) {
+  const auto w = roll({0.02, 0.6, 0}, 0.15, 1);
+  fit::decay::Problem problem{
+      .turns = true, .runs = {{.source = {"roll.csv"}, .time = times(w), .motion = {}}}, .body = {}, .options = {}};
+  problem.runs[0].motion.assign(values(w).begin(), values(w).end());
+  problem.options.motion.terms = {.linear = true};
+  problem.options.accept_residuals = true;
+  const auto solution = fit::decay::solve(problem);
+  ASSERT_FALSE(solution.runs.empty()) << solution.report.refused->why;
+  EXPECT_EQ(find(solution.report.parts.at(0).facts, "decrement_ratio"), nullptr);
+}
+
+TEST(Decay, IsFoundInNoiseOfATwentiethOfItsFirstSwing) {
+  // Extremes of the record itself are those of its noise, and a search from their period ended at 1.8 s or nowhere.
+  for (std::uint64_t stream = 1; stream <= 6; ++stream)
+    for (const double noise : {0.012, 0.016}) {
+      const std::vector<fit::Window> records{roll({0.02, 0.6, 0}, noise, stream)};
+      const auto f = fit::fit_decay(records, {.terms = {.linear = true, .quadratic = true}, .substeps = 2});
+      EXPECT_NEAR(*f.period.value, 6.4, 5 * f.period.standard_error) << noise << ", " << stream;
+      EXPECT_GT(f.motion.explained[0], 0.9);
+      EXPECT_NEAR(f.motion.rms[0], noise, 0.1 * noise);  // 1200 samples tell it to 2 %; five of these
+    }
 }
 
 TEST(Energy, TellsEachKindOfDampingAlone) {

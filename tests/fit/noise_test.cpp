@@ -117,6 +117,69 @@ TEST(Delay, ThatNobodyAskedForIsNamedAndNoValueTold) {
   EXPECT_NEAR(*solve(problem).runs.at(0).fit.inertia.value, froude_test::moved_ca, 0.01);
 }
 
+// 0.02 s of 4 s leave 0.8 of the residuals' variance and take ca seven half intervals away from what it is.
+TEST(Delay, ThatMovesACoefficientFarBeyondItsIntervalLetsNoValueStand) {
+  for (const double late : {0.02, -0.02, 0.1, 0.25}) {
+    auto problem = moved_run({.position = 3e-4, .force = 0.5, .step_s = 0.02, .late_s = late}, 4);
+    const auto found = solve(problem);
+    const auto& run = found.runs.at(0);
+    EXPECT_FALSE(run.fit.cd.value || run.fit.inertia.value) << late;
+    ASSERT_EQ(run.prepared.cautions.size(), 1u) << late;
+    EXPECT_THAT(run.prepared.cautions[0],
+                testing::AllOf(testing::HasSubstr(late > 0 ? "s after the motion" : "s before the motion"),
+                               testing::HasSubstr("half of an interval away")));
+  }
+}
+
+TEST(Delay, ThatIsNoneIsNotSpokenOf) {
+  // One right record in a thousand has a word said of it: of forty none, or one.
+  int spoken = 0;
+  std::string told;
+  for (std::uint64_t set = 0; set < 40; ++set) {
+    const auto solution = solve(moved_run({.position = 3e-4, .force = 1, .memory = 0.8, .step_s = 0.04}, set));
+    for (const std::string& caution : solution.runs.at(0).prepared.cautions)
+      if (caution.find("the force ") != std::string::npos) {
+        ++spoken;
+        told += caution + '\n';
+      }
+    EXPECT_TRUE(solution.runs.at(0).fit.inertia.value) << set;
+  }
+  EXPECT_LE(spoken, 1) << told;
+}
+
+TEST(Delay, WhoseErrorIsStatedIsNotSpokenOfWithinIt) {
+  auto problem = moved_run({.position = 3e-4, .force = 0.5, .step_s = 0.02, .late_s = 0.02}, 4);
+  problem.options.force.delay_error_s = 0.02;
+  const auto found = solve(problem);
+  EXPECT_TRUE(found.runs.at(0).prepared.cautions.empty());
+  const auto& ca = found.runs.at(0).fit.inertia;
+  EXPECT_LT(ca.interval.low, froude_test::moved_ca);
+  EXPECT_GT(ca.interval.high, froude_test::moved_ca);
+}
+
+TEST(Offset, ThatNobodyTookOffIsNamedWithTheKeyThatDoes) {
+  auto problem = moved_run({.position = 3e-4, .force = 0.5, .step_s = 0.02}, 6);
+  for (double& f : problem.runs[0].raw.force[0].values) f += 4;
+  const auto found = solve(problem);
+  EXPECT_THAT(found.runs.at(0).prepared.cautions,
+              testing::Contains(testing::AllOf(testing::HasSubstr("those of a constant force of"),
+                                               testing::HasSubstr("offset = true"))));
+  problem.options.force.force_offset = true;
+  EXPECT_TRUE(solve(problem).runs.at(0).prepared.cautions.empty());
+}
+
+TEST(Inertia, ThatNoStillWaterHasIsRefusedWithItsLikelyCause) {
+  for (const double mass : {5.9, 2.0}) {
+    auto problem = moved_run({.position = 3e-4, .force = 0.5, .step_s = 0.02}, 5);
+    problem.runs[0].cylinder.mass_beyond_load_cells = mass;
+    for (double& f : problem.runs[0].raw.force[0].values) f *= 1e-3;  // kN under a header of N
+    const auto found = solve(problem);
+    ASSERT_TRUE(found.report.refused) << mass;
+    EXPECT_EQ(found.report.refused->reason, fit::Refusal::Reason::wrong_sign);
+    EXPECT_THAT(found.report.refused->why, testing::HasSubstr("kN under [N]"));
+  }
+}
+
 TEST(Aicc, ComparesTermsByTheSameNumberOfSamples) {
   auto [problem, omega] = decay_in_steps(0, 0.05, 3);
   problem.options.accept_residuals = true;  // one term alone does not explain this motion

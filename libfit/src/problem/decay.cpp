@@ -9,6 +9,7 @@
 #include "hydro/base/error.hpp"
 #include "hydro/signal/distributions.hpp"
 #include "hydro/signal/welch.hpp"
+#include "swings.hpp"
 #include "telling.hpp"
 
 namespace fit::decay {
@@ -38,17 +39,30 @@ DecayFit fit_half(const Options& options, const Window& whole, bool first) {
   return fit_decay(std::vector{Window{whole.step, part}}, plain(options));
 }
 
+/// Why a half of a record tells nothing by itself; empty where it does.
+std::string half_trouble(const DecayFit& half) {
+  if (half.motion.explained[0] < least_explained)
+    return fmt::format("its motion explains {:.3g} % of the variance", 100 * half.motion.explained[0]);
+  if (!half.motion.search.all_identifiable()) return half.motion.search.identifiability;
+  const auto told = [](const Coefficient& c) { return std::isfinite(middle(c)) && std::isfinite(c.standard_error); };
+  if (!told(half.period) || !std::all_of(half.damping.begin(), half.damping.end(), told))
+    return "its search tells no error of a coefficient";
+  return {};
+}
+
 /// Where halves differ from the whole by many errors, damping is not what the terms say.
 void vary(const Options& options, const Window& whole, FittedRun& run) {
   for (const bool first : {true, false}) {
     Variant v{first ? "the first half of the record" : "the second half of the record", {}, {}};
     try {
       const DecayFit again = fit_half(options, whole, first);
+      v.why_not = half_trouble(again);
       const auto add = [&](const Coefficient& a, const Coefficient& b) {
         v.changes.push_back((middle(a) - middle(b)) / b.standard_error);
       };
-      add(again.period, run.fit.period);
-      for (std::size_t k = 0; k < again.damping.size(); ++k) add(again.damping[k], run.fit.damping[k]);
+      if (v.why_not.empty()) add(again.period, run.fit.period);
+      for (std::size_t k = 0; v.why_not.empty() && k < again.damping.size(); ++k)
+        add(again.damping[k], run.fit.damping[k]);
     } catch (const hydro::InputError& e) {
       v.why_not = e.rule();
     } catch (const hydro::NumericsError& e) {
@@ -107,13 +121,20 @@ double difference(const DecayFit& a, const DecayFit& b) {
 void compare_halves(const Problem& problem, const Window& whole, FittedRun& run) {
   if (!run.alone() || problem.options.memory) return;
   std::optional<DecayFit> first, second;
-  try {
-    first = fit_half(problem.options, whole, true);
-    second = fit_half(problem.options, whole, false);
-  } catch (const hydro::InputError&) {
-    return;  // a half with two swings tells nothing by itself
-  } catch (const hydro::NumericsError&) {
-    return;  // nor does one in which the motion has died out
+  for (auto* half : {&first, &second}) {
+    std::string why;
+    try {
+      *half = fit_half(problem.options, whole, half == &first);
+      why = half_trouble(**half);
+    } catch (const hydro::InputError& e) {  // a half with two swings tells nothing by itself
+      why = e.rule();
+    } catch (const hydro::NumericsError& e) {  // nor does one in which the motion has died out
+      why = e.what();
+    }
+    if (why.empty()) continue;
+    run.records[0].steps.push_back(fmt::format("both halves of the record cannot be compared: of the {} one, {}",
+                                               half == &first ? "first" : "second", why));
+    return;
   }
   run.halves = difference(*first, *second);
   if (run.halves < 1 || problem.options.accept_residuals) return;
@@ -232,13 +253,24 @@ void count_slopes(const Problem& problem, FittedRun& run) {
   count_slope(problem.motion_slope, middle(run.fit.period) * x * x / 8, run.fit.period);
 }
 
+/// (F34) By the swings that stand out of the noise; three are needed, else all extremes serve for the amplitude alone.
+void tell_decrement(FittedRun& run) {
+  const Record& r = run.records[0];
+  try {
+    run.decrement = logarithmic_decrement(find_swings(r.time, r.values));
+  } catch (const hydro::InputError&) {
+    run.decrement = logarithmic_decrement(find_extremes(r.time, r.values));
+    run.decrement.ratio.clear();  // what noise makes of them is none
+  }
+}
+
 /// Fits the records of a run with one set of coefficients.
 FittedRun fitted(const Problem& problem, const Source& source, std::vector<Record> records) try {
   const Options& options = problem.options;
   FittedRun run{.source = source, .records = std::move(records), .decrement = {}, .fit = {}};
   std::vector<Window> windows;
   for (const Record& r : run.records) windows.push_back(window_of(r));
-  run.decrement = logarithmic_decrement(find_extremes(run.records[0].time, run.records[0].values));
+  tell_decrement(run);
   run.fit = fit_decay(windows, plain(options));
   require_explained(problem, run, run.fit.motion);
   compare_halves(problem, windows[0], run);

@@ -71,8 +71,12 @@ std::string heading_of(const FittedRun& run, bool turns) {
   const auto& amplitude = run.decrement.amplitude;
   const std::string of =
       run.alone()
-          ? fmt::format("{}: {} half cycles from {:.4g} to {:.4g} {}, residual {:.3g} rms", run.name(),
-                        amplitude.size(), amplitude.front(), amplitude.back(), turns ? "rad" : "m", m.rms[0])
+          ? fmt::format("{}: {}residual {:.3g} rms", run.name(),
+                        !run.decrement.ratio.empty()
+                            ? fmt::format("{} half cycles from {:.4g} to {:.4g} {}, ", amplitude.size(),
+                                          amplitude.front(), amplitude.back(), turns ? "rad" : "m")
+                            : "",
+                        m.rms[0])
           : fmt::format("{} runs with one set of coefficients: residual {:.3g} rms", run.records.size(), m.rms[0]);
   return of + fmt::format(", {:.4g} % of the variance explained", 100 * m.explained[0]);
 }
@@ -95,6 +99,10 @@ Report begun(const FittedRun& run, bool turns) {
 /// What extremes alone tell.
 void add_energy(const FittedRun& run, Report& report) {
   const Decrement& d = run.decrement;
+  if (d.ratio.empty() || run.fit.energy.damping.empty()) {
+    report.say("too few swings stand out of the noise for a decrement, or for the energy that they lose");
+    return;
+  }
   append(report.facts, {{"decrement_ratio", d.ratio}, {"decrement_amplitude", d.amplitude}});
   std::string by_energy;
   for (const Coefficient& c : run.fit.energy.damping) by_energy += fmt::format(" {} {:.4g}", c.name, *c.value);

@@ -3,6 +3,7 @@
 
 #include "fit/verdict.hpp"
 #include "hydro/base/error.hpp"
+#include "hydro/signal/distributions.hpp"
 #include "morison_report.hpp"
 #include "telling.hpp"
 
@@ -16,34 +17,83 @@ void require_drag_that_brakes(const MorisonFit& fit, const Source& source) {
   throw Refused{drives_the_motion(fmt::format("drag comes out negative (cd {:.3g} to {:.3g})", low, high), source)};
 }
 
-/// (F70) A delay that nobody asked for and that explains the larger part of what a fit leaves over: such a fit is of
-/// channels that do not belong together in time, and its coefficients say nothing.
-void look_for_delay(const Options& options, FittedRun& run) {
-  constexpr double variance_left =
-      0.25;  // of the residuals; noise gives a needless delay one degree of freedom and no more
-  if (options.longest_delay || !run.fit.search.all_identifiable()) return;
+/// (F112) Inertia that no still water has, beyond twice its interval: a total that is negative, or next to none of the
+/// mass that the load cells are said to carry together with next to no drag.
+void require_inertia_of_water(const FittedRun& run) {
+  const MorisonFit& fit = run.fit;
+  if (!fit.inertia.value) return;
+  const Coefficient ca = inertia_as(fit, "ca");
+  const Cylinder& c = run.cylinder;
+  const double mass = c.mass_beyond_load_cells / (c.density * c.volume());  // over that of the water in its place
+  const auto surely_below = [&](double least) {
+    return is_surely_negative({ca.interval.low - least, ca.interval.high - least});
+  };
+  constexpr double little = 0.05, little_drag = 0.1;
+  const bool next_to_none = mass > 0 && surely_below((little - 1) * mass) && middle(fit.cd) < little_drag;
+  if (!next_to_none && !surely_below(-1)) return;
+  std::string why = fmt::format("added mass comes out as ca {:.3g} to {:.3g}, ", ca.interval.low, ca.interval.high);
+  why += surely_below(-1) ? "so that C_M = 1 + C_A would be negative, which no water has"
+                          : "and with the mass beyond the load cells next to no force would accelerate the body";
+  why +=
+      ": the force stands in another unit than its header says (kN under [N]), the force or the motion has the "
+      "wrong sign, or the mass beyond the load cells is too large";
+  throw Refused{{.reason = Refusal::Reason::wrong_sign, .why = why, .source = run.source.file.string()}};
+}
+
+/// The same record with a delay of the force beside the coefficients; none, with the reason among the cautions, where
+/// it cannot be fitted.
+std::optional<MorisonFit> fit_with_delay(const Options& options, FittedRun& run) {
   MorisonOptions force = options.force;
   force.force_errors = run.prepared.force_errors;
-  std::optional<DelayedFit> delayed;
+  force.method = IntervalMethod::effective_samples;  // the others ask for more cycles than may be left
+  force.bands = false;
+  std::string why_not;
   try {
-    delayed = fit_morison_and_delay(run.cylinder, run.prepared.record, run.fit.period / 4, force);
-  } catch (const hydro::InputError&) {  // too short a record, or lines that hide the delay
-    return;
-  } catch (const SearchFailed&) {
-    return;
+    MorisonFit with = fit_morison_and_delay(run.cylinder, run.prepared.record, run.fit.period / 4, force).fit;
+    if (std::isfinite(with.delay->standard_error)) return with;
+    why_not = with.delay->why_not;
+  } catch (const hydro::InputError& e) {  // too short a record, or lines that hide the delay
+    why_not = e.rule();
+  } catch (const SearchFailed& e) {
+    why_not = e.what();
   }
-  const MorisonFit& with = delayed->fit;
-  if (!with.delay->value || !(with.residual_rms < std::sqrt(variance_left) * run.fit.residual_rms)) return;
-  const double late = *with.delay->value, in_all = late + options.prepare.delay_s;
+  run.prepared.cautions.push_back("whether the force is late could not be found out: " + why_not);
+  return {};
+}
+
+/// What one coefficient is with a delay and without, over the half of its interval without.
+double shift_of(const Coefficient& without, const Coefficient& with) {
+  constexpr double least = 1e-3;  // less is nothing, though rounding alone may leave an interval that is narrower
+  const double shift = std::abs(middle(with) - middle(without)),
+               half = (without.interval.high - without.interval.low) / 2;
+  return shift > least ? shift / std::max(half, 1e-12) : 0;
+}
+
+/// (F70) A delay that nobody asked for: told where it is no chance and moves a coefficient beyond its interval; far
+/// beyond, the channels do not belong together in time, and the coefficients say nothing.
+void look_for_delay(const Options& options, FittedRun& run) {
+  constexpr double chance = 1e-3, far = 3;
+  if (options.longest_delay || !run.fit.search.all_identifiable()) return;
+  const std::optional<MorisonFit> with = fit_with_delay(options, run);
+  if (!with || !with->delay->value) return;
+  const double late = *with->delay->value, in_all = late + options.prepare.delay_s,
+               error = std::hypot(with->delay->standard_error, options.force.delay_error_s);
+  if (std::abs(late) <= hydro::signal::student_t_quantile(1 - chance / 2, with->dof) * error) return;
+  const double shift = std::max(shift_of(run.fit.cd, with->cd), shift_of(run.fit.inertia, with->inertia));
+  if (shift <= 1) return;
   const std::string why = fmt::format(
-      "the force comes {:.3g} s {} the motion: taken off, it leaves {:.3g} N rms in place of {:.3g} N. Write delay = "
-      "\"{:.3g} s\" in [prepare], or \"estimate\"",
-      std::abs(late), late > 0 ? "after" : "before", with.residual_rms, run.fit.residual_rms, in_all);
+      "the force comes {:.3g} s {} the motion (error {:.2g} s): with that taken off cd is {:.4g} in place of {:.4g} "
+      "and {} {:.4g} in place of {:.4g}, up to {:.2g} times the half of an interval away, and {:.3g} N rms are left in "
+      "place of {:.3g} N. Write delay = \"{:.3g} s\" in [prepare], or \"estimate\"; if the channels are known to "
+      "belong together in time, the delay that they do have with a delay_error that counts the rest",
+      std::abs(late), late > 0 ? "after" : "before", error, middle(with->cd), middle(run.fit.cd), run.fit.inertia.name,
+      middle(with->inertia), middle(run.fit.inertia), shift, with->residual_rms, run.fit.residual_rms, in_all);
+  run.prepared.cautions.push_back(why);
+  if (shift <= far) return;
   for (Coefficient* c : {&run.fit.cd, &run.fit.inertia}) {
     c->value.reset();
     c->why_not = why;
   }
-  run.prepared.cautions.push_back(why);
 }
 
 /// The fit of one raw record, with its delay where that is to be estimated.
@@ -64,6 +114,7 @@ FittedRun fit_raw(const Options& options, const Source& source, const Cylinder& 
   if (const std::string trouble = sign_trouble(cylinder, run.fit); !trouble.empty())
     throw Refused{{.reason = Refusal::Reason::wrong_sign, .why = trouble, .source = source.file.string()}};
   require_drag_that_brakes(run.fit, source);
+  require_inertia_of_water(run);
   return run;
 }
 
@@ -134,10 +185,28 @@ ResidualReport residuals_of(const FittedRun& run) {
   return look_at_residuals(residuals, rms, r.time[1] - r.time[0], run.fit.period);
 }
 
+/// (F113) A constant that makes a large part of what is left over: it moves the coefficients little and widens all of
+/// their intervals, though a key takes it off.
+void look_for_offset(const Options& options, FittedRun& run) {
+  constexpr double large = 0.2;  // of the squares; noise gives a mean one part in as many as it has independent samples
+  if (options.force.force_offset || !run.fit.search.all_identifiable()) return;
+  const std::vector<double>& force = run.prepared.record.force;
+  const auto count = static_cast<double>(force.size());
+  double mean = 0;
+  for (std::size_t j = 0; j < force.size(); ++j) mean += (force[j] - run.fit.fitted[j]) / count;
+  const double share = mean * mean / (run.fit.residual_rms * run.fit.residual_rms);
+  if (!(share > large)) return;
+  run.prepared.cautions.push_back(
+      fmt::format("{:.0f} % of the squares of what is left over are those of a constant force of {:.3g} N: a zero that "
+                  "nobody took off widens the intervals. Write offset = true in [model], or name the `zero` run",
+                  100 * share, mean));
+}
+
 FittedRun fitted(Options options, const Run& of) {
   if (of.delay_s) options.prepare.delay_s = *of.delay_s;
   FittedRun run = fit_raw(options, of.source, of.cylinder, of.raw);
   look_for_delay(options, run);
+  look_for_offset(options, run);
   run.left = residuals_of(run);
   run.fourier = fourier_averages(run.cylinder, run.prepared.record, run.fit.period);
   if (options.cycles) run.cycles = fit_cycles(run.cylinder, run.prepared.record, run.prepared.cycle_starts);
