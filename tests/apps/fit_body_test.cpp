@@ -148,11 +148,11 @@ TEST_F(Fit, OfADecayThatIsNoneTellsNothing) {
       [&] { told({.scene = scene}, true); },
       ThrowsMessage<froude::CheckFailed>(AllOf(HasSubstr("rad rms from decay.csv"), HasSubstr("50 % are the least"),
                                                HasSubstr("accept = [\"residuals\"]"))));
-  // A swing whose period halves, of which the search finds no end.
+  // A swing whose period halves: of several starts of the search none ends where it is explained.
   measured([](double t) { return 0.2 * std::cos(0.8 * t + 0.004 * t * t); });
   EXPECT_THAT(
       [&] { told({.scene = scene}, true); },
-      ThrowsMessage<hydro::NumericsError>(AllOf(HasSubstr("decay.csv: no value is told"), HasSubstr("no end"))));
+      ThrowsMessage<froude::CheckFailed>(AllOf(HasSubstr("no value is told"), HasSubstr("50 % are the least"))));
 }
 
 TEST_F(Fit, OfABrakeGivesWhatASceneOfMotionMayInclude) {
@@ -233,7 +233,7 @@ TEST_F(Fit, OfSeveralDecaysTellsTheMemoryOfTheWater) {
   text.replace(text.find("\"memory\""), 8, "\"linear\"");
   text.replace(text.find("start = "), text.find("body = ") - text.find("start = "), "");
   hydro::io::write_atomically(two, text);
-  EXPECT_THAT(told({.scene = two}), AllOf(HasSubstr("run_2.csv: 10 half cycles"),
+  EXPECT_THAT(told({.scene = two}), AllOf(HasSubstr("run_2.csv: 11 half cycles"),
                                           HasSubstr("2 runs with one set of coefficients"), HasSubstr("kg")));
 }
 

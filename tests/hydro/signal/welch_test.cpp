@@ -109,7 +109,7 @@ TEST(EvenStep, AcceptsRoundedTimesAndNamesTheFirstGap) {
       [] {
         even_step(std::vector<double>{0, 1, 2, 4});
       },
-      ThrowsMessage<hydro::InputError>(HasSubstr("sample 2 is at 1 s")));
+      ThrowsMessage<hydro::InputError>(HasSubstr("from sample 3 at 2 s to the next 2 s pass")));
   EXPECT_THROW(even_step(std::vector<double>{1}), hydro::InputError);
   EXPECT_THROW(even_step(std::vector<double>{1, 0}), hydro::InputError);
 }
