@@ -354,7 +354,9 @@ TEST(Doctor, KnowsABodyWhollyUnderWater) {
   const auto c = hydro::cylinders::solve({disc}, water, {0.5, 1, 1.5, 2}, {0.0}, {.tolerance = 1e-4}).coefficients;
   ASSERT_EQ((*c.C)(2, 2), 0);
   for (const Finding& f : check(c))
-    if (f.check == "restoring matrix") EXPECT_EQ(f.severity, Severity::note) << f.message;
+    if (f.check == "restoring matrix") {
+      EXPECT_EQ(f.severity, Severity::note) << f.message;
+    }
 }
 
 }  // namespace
