@@ -159,17 +159,27 @@ std::vector<Vector3d> vertices_of(const HullBody& body, double near, double dept
   return v;
 }
 
+double nearness(const HullBody& body) { return 1e-6 * body.hull.diagonal(); }
+
+/// All of a hull's, with vertices_of().
+std::vector<Triangle> triangles_of(const HullBody& body, double depth) {
+  const std::vector<Vector3d> v = vertices_of(body, nearness(body), depth);
+  std::vector<Triangle> out;
+  for (const auto& t : body.hull.triangles())
+    out.push_back(
+        {v[static_cast<std::size_t>(t[0])], v[static_cast<std::size_t>(t[1])], v[static_cast<std::size_t>(t[2])]});
+  return out;
+}
+
+bool is_on_bed(const Triangle& triangle, double depth) {
+  return std::all_of(triangle.begin(), triangle.end(), [&](const Vector3d& p) { return p.z() == -depth; });
+}
+
 WetHull wet_hull(const HullBody& body, int index, double depth) {
   WetHull out;
-  out.near = 1e-6 * body.hull.diagonal();
-  const std::vector<Vector3d> v = vertices_of(body, out.near, depth);
-  std::vector<Triangle> triangles;
-  for (const auto& t : body.hull.triangles()) {
-    const Triangle corner{v[static_cast<std::size_t>(t[0])], v[static_cast<std::size_t>(t[1])],
-                          v[static_cast<std::size_t>(t[2])]};
-    const bool on_bed = std::all_of(corner.begin(), corner.end(), [&](const Vector3d& p) { return p.z() == -depth; });
-    if (!on_bed) triangles.push_back(corner);
-  }
+  out.near = nearness(body);
+  std::vector<Triangle> triangles = triangles_of(body, depth);
+  std::erase_if(triangles, [&](const Triangle& t) { return is_on_bed(t, depth); });
   for (const Corners& figure : joined(triangles, out.near)) add_wet(figure, index, out);
   require(!out.outlines.empty(), "{}: nothing of \"{}\" is under water (z < 0)", body.hull.source(), body.name);
   return out;
@@ -337,6 +347,11 @@ std::vector<Polygon> lid_squares(const std::vector<Segment>& waterline, double s
     for (double j = std::floor(low.y() / side); j * side < high.y(); ++j)
       add_squares(waterline, side * Vector2d(i, j), side, 1, out);
   return out;
+}
+
+bool stands_on_bed(const HullBody& body, const WaterDepth& depth) {
+  const std::vector<Triangle> all = triangles_of(body, depth.metres());
+  return std::any_of(all.begin(), all.end(), [&](const Triangle& t) { return is_on_bed(t, depth.metres()); });
 }
 
 double wet_area(const PanelMesh& mesh) {

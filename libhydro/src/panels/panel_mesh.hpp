@@ -41,6 +41,8 @@ struct PanelMesh {
 
 /// \throws InputError as solve()
 PanelMesh panel_mesh(const std::vector<HullBody>& bodies, const WaterDepth& depth, bool lid);
+/// A face lies on the bed: no water is there. \throws InputError as panel_mesh()
+bool stands_on_bed(const HullBody& body, const WaterDepth& depth);
 /// Of all images of the hulls, m².
 double wet_area(const PanelMesh& mesh);
 /// Whether p is inside the closed lines that these pairs of points make.

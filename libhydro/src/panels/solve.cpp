@@ -12,6 +12,7 @@
 #include "controlled.hpp"
 #include "hydro/base/parallel.hpp"
 #include "hydro/hydrostatics/immersion.hpp"
+#include "panel_mesh.hpp"
 #include "potential/modes.hpp"
 #include "potential/operations/where_needed.hpp"
 #include "potential/solver_request.hpp"
@@ -27,18 +28,6 @@ using Eigen::MatrixXcd;
 using Eigen::MatrixXd;
 using potential::Coefficients;
 
-/// A face lies on the bed, to what a mesh's digits leave.
-bool stands_on_bed(const HullBody& body, const Water& water) {
-  if (water.depth.is_infinite()) return false;
-  const double near = 1e-6 * body.hull.diagonal(), bed = -water.depth.metres();
-  const auto& triangles = body.hull.triangles();
-  return std::any_of(triangles.begin(), triangles.end(), [&](const auto& t) {
-    return std::all_of(t.begin(), t.end(), [&](int v) {
-      return std::abs(body.hull.vertices()[static_cast<std::size_t>(v)].z() - bed) < near;
-    });
-  });
-}
-
 void fill_bodies(const std::vector<HullBody>& bodies, const Water& water, Coefficients& c) {
   bool known = true, floating = true;
   for (const HullBody& body : bodies) {
@@ -49,7 +38,7 @@ void fill_bodies(const std::vector<HullBody>& bodies, const Water& water, Coeffi
                       .centre_of_buoyancy = im.centre_of_buoyancy,
                       .displaced_volume = im.volume});
     known = known && body.centre_of_gravity;
-    if (!stands_on_bed(body, water)) continue;
+    if (!stands_on_bed(body, water.depth)) continue;
     floating = false;
     c.notes.push_back(fmt::format(
         "\"{}\" stands on the sea bed: its faces there meet no water, and loads are without them", body.name));
