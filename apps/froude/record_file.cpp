@@ -37,10 +37,6 @@ RunResult read_csv(const Path& path) {
   return record;
 }
 
-}  // namespace
-
-namespace {
-
 /// What comes before is told before what comes after: cycles, extremes and spectra are of that order.
 RunResult rising(RunResult record, const Path& path) {
   const auto& t = record.time;

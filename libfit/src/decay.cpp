@@ -201,10 +201,6 @@ void judge(double unknowns, DecayFit& fit) {
   if (n > k + 1) fit.aicc = minus2 + 2 * k + 2 * k * (k + 1) / (n - k - 1);
 }
 
-}  // namespace
-
-namespace {
-
 /// The swings of a record, or all of its extremes where so few stand out that they tell no damping.
 struct Swings {
   std::vector<Extreme> extremes;
