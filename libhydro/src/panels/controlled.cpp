@@ -166,7 +166,7 @@ void Ladder::solve() {
     ++done_;
     if (options_.progress) options_.progress(done_, all);
   });
-  find_scales();
+  if (scale_.empty()) find_scales();  // of the first mesh, which finer ones leave as it is
 }
 
 Extrapolated Ladder::step(std::size_t frequency) const {
