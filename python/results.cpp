@@ -135,7 +135,28 @@ void add_field(py::module_& m) {
       .def_property_readonly(
           "mean_drift", [](const FreeSurface& f) { return py::make_tuple(f.drift_x, f.drift_y); },
           "Mean drift force on all bodies along x and y, N per m^2 of wave amplitude.")
-      .def_readonly("power_taken", &FreeSurface::power_taken, "Mean power that the bodies take, W per m^2 of amplitude.")
+      .def_property_readonly("angle", view_of(&FreeSurface::angle),
+                             "Directions of far_scattered and far_radiated, rad, shape (angle,).")
+      .def_property_readonly(
+          "far_scattered", view_of(&FreeSurface::far_scattered),
+          "A of what bodies held still add far away, A sqrt(2/(pi k r)) e^{-i(k r - pi/4)} per metre "
+          "of wave amplitude at the distance r from the origin, complex, shape (angle,).")
+      .def_property_readonly("far_radiated", view_of(&FreeSurface::far_radiated),
+                             "The same of the motion of the bodies.")
+      .def_property_readonly(
+          "body_drift",
+          [](const FreeSurface& f) {
+            py::dict out;
+            for (const FreeSurface::BodyDrift& one : f.body_drift)
+              out[py::str(one.body)] = py::make_tuple(one.x, one.y, one.moment);
+            return out;
+          },
+          "Mean drift of each body by itself, where `body_drift` asks for it: force along x and y, N, and moment about "
+          "the vertical through its origin, N m, per m^2 of wave amplitude.")
+      .def_readonly("body_drift_error", &FreeSurface::body_drift_error,
+                    "Estimated error of body_drift, over the largest.")
+      .def_readonly("power_taken", &FreeSurface::power_taken,
+                    "Mean power that the bodies take, W per m^2 of amplitude.")
       .def_readonly("power_sent_out", &FreeSurface::power_sent_out,
                     "Mean power of scattered and radiated waves, W per m^2 of amplitude.");
   add_dataset(type, "of_field", "xarray.Dataset along `y` and `x`, complex; `units` and `long_name` of each.");

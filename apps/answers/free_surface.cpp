@@ -129,6 +129,19 @@ std::shared_ptr<const HullPressures> pressures(const scene::Scene& scene, const 
   return out;
 }
 
+/// Of the field under the names of these bodies.
+void add_body_drift(const scene::Scene& scene, const std::vector<int>& bodies, const WaveField& field,
+                    FreeSurface& out) {
+  if (!scene.field->body_drift) return;
+  out.body_drift_error = field.on_bodies->estimate;
+  require_accuracy(scene, {"mean drift of bodies", out.body_drift_error, scene.field->accepted_drift_error,
+                           "accepted_drift_error", "give finer meshes, or cylinders a smaller `tolerance`"});
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    const auto load = field.on_bodies->load.row(static_cast<Index>(b));
+    out.body_drift.push_back({scene.bodies[static_cast<std::size_t>(bodies[b])].name, load.x(), load.y(), load.z()});
+  }
+}
+
 }  // namespace
 
 FreeSurface free_surface(const scene::Scene& scene, const std::shared_ptr<compile::Kept>& kept) {
@@ -146,8 +159,8 @@ FreeSurface free_surface(const scene::Scene& scene, const std::shared_ptr<compil
                   .signals = {},
                   .notes = {},
                   .provenance = provenance_of(scene)};
-  FieldQuestion question{asked.omega, asked.heading, Eigen::VectorXcd::Zero(6 * static_cast<Index>(bodies.size())),
-                         grid_of(asked), asked.pressure};
+  FieldQuestion question{asked.omega,    asked.heading,  Eigen::VectorXcd::Zero(6 * static_cast<Index>(bodies.size())),
+                         grid_of(asked), asked.pressure, asked.body_drift};
   if (!asked.held) {
     const compile::Prepared prepared = compile::prepare(at_its_frequency(scene), kept);
     out.notes = prepared.notes;
@@ -159,7 +172,11 @@ FreeSurface free_surface(const scene::Scene& scene, const std::shared_ptr<compil
   require_accuracy(scene, {"elevation", field.estimate, asked.accepted_error, "accepted_error",
                            "keep the grid off the sides of bodies, where it is worst"});
   out.pressure = pressures(scene, bodies, field);
+  add_body_drift(scene, bodies, field, out);
   out.estimate = field.estimate;
+  out.angle = field.far.angle;
+  out.far_scattered.assign(field.far.scattered.begin(), field.far.scattered.end());
+  out.far_radiated.assign(field.far.radiated.begin(), field.far.radiated.end());
   const hydro::potential::MeanDrift drift = mean_drift(field.far, asked.omega, scene.water);
   out.drift_x = drift.force.x();
   out.drift_y = drift.force.y();

@@ -331,6 +331,41 @@ void write_pressures(Hdf5Writer& file, const HullPressures& hulls) {
                  "change of the hydrostatic pressure that the moving panel meets");
 }
 
+void write_far_field(Hdf5Writer& file, const FreeSurface& surface) {
+  write_dimension(file, "/angle", surface.angle, "rad", "direction seen from the global origin, from +x towards +y");
+  const auto write = [&](const std::string& name, const std::vector<std::complex<double>>& values,
+                         const std::string& meaning) {
+    std::vector<double> flat;
+    for (const auto& value : values) flat.insert(flat.end(), {value.real(), value.imag()});
+    file.write(name, flat, {values.size(), 2});
+    file.attach_dimension(name, 0, "/angle");
+    file.attach_dimension(name, 1, "/complex");
+    describe(file, name, "m/m", meaning + ": A of A sqrt(2/(pi k r)) exp(-i (k r - pi/4)) per metre of wave amplitude");
+  };
+  write("/far_scattered", surface.far_scattered, "far away, of bodies held still");
+  write("/far_radiated", surface.far_radiated, "far away, of the motion of bodies");
+}
+
+void write_body_drift(Hdf5Writer& file, const FreeSurface& surface) {
+  std::vector<std::string> names;
+  for (const FreeSurface::BodyDrift& one : surface.body_drift) names.push_back(one.body);
+  file.write_texts("/body", names);
+  file.make_dimension("/body");
+  file.attribute("/", "body_drift_error", surface.body_drift_error);
+  const auto write = [&](const std::string& name, double FreeSurface::BodyDrift::*of, const std::string& unit,
+                         const std::string& meaning) {
+    std::vector<double> values;
+    for (const FreeSurface::BodyDrift& one : surface.body_drift) values.push_back(one.*of);
+    file.write(name, values, {values.size()});
+    file.attach_dimension(name, 0, "/body");
+    describe(file, name, unit, meaning);
+  };
+  write("/body_drift_x", &FreeSurface::BodyDrift::x, "N/m^2", "mean drift force, per wave amplitude squared");
+  write("/body_drift_y", &FreeSurface::BodyDrift::y, "N/m^2", "mean drift force, per wave amplitude squared");
+  write("/body_drift_moment", &FreeSurface::BodyDrift::moment, "N m/m^2",
+        "mean drift moment about the vertical through the origin of the body, per wave amplitude squared");
+}
+
 }  // namespace
 
 void FreeSurface::write(const std::filesystem::path& path) const {
@@ -367,7 +402,9 @@ void FreeSurface::write(const std::filesystem::path& path) const {
     file.attach_dimension(dataset, 2, "/complex");
     describe(file, dataset, part.units, part.long_name);
   }
+  write_far_field(file, *this);
   if (pressure) write_pressures(file, *pressure);
+  if (!body_drift.empty()) write_body_drift(file, *this);
   file.save(path);
 }
 

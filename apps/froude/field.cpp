@@ -45,6 +45,18 @@ Report highest_pressure(const HullPressures& hulls) {
   return out;
 }
 
+Report body_drift(const FreeSurface& surface) {
+  Report out;
+  for (const FreeSurface::BodyDrift& one : surface.body_drift) {
+    Report of;
+    of.say("mean drift on {} ({:.4g}, {:.4g}) N per m^2, {:.4g} N m about the vertical through its origin",
+           fact("body", one.body), fact("x_N_m2", one.x), fact("y_N_m2", one.y), fact("moment_Nm_m2", one.moment));
+    out.part(one.body, std::move(of));
+  }
+  return out.say("estimated error of the mean drift of bodies {:.2g} of the largest",
+                 fact("error", surface.body_drift_error));
+}
+
 Report report_of(const scene::Scene& scene, const FreeSurface& surface, const Path& file) {
   const auto told = std::count_if(surface.elevation().begin(), surface.elevation().end(),
                                   [](const auto& eta) { return std::isfinite(eta.real()); });
@@ -69,6 +81,7 @@ Report report_of(const scene::Scene& scene, const FreeSurface& surface, const Pa
       fact("x_N_m2", surface.drift_x), fact("y_N_m2", surface.drift_y), fact("taken_W_m2", surface.power_taken),
       fact("sent_out_W_m2", surface.power_sent_out));
   out.part("mean_drift", std::move(mean));
+  if (!surface.body_drift.empty()) out.part("body_drift", body_drift(surface));
   if (surface.pressure) out.part("pressure", highest_pressure(*surface.pressure));
   out.say("estimated error {:.2g} of the highest, accuracy asked {:.2g}", fact("error", surface.estimate),
           fact("asked", scene.accuracy.value));

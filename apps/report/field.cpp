@@ -1,6 +1,7 @@
 // The free surface about bodies in one regular wave, with what is seen of the bodies from above.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 
 #include "hydro/base/error.hpp"
@@ -72,6 +73,22 @@ Json means_told(const Hdf5Reader& file) {
   return out;
 }
 
+/// A row for each body: its name and what is told of it; empty where the field was not asked for it.
+Json body_drift_told(const Hdf5Reader& file) {
+  Json out = Json::array();
+  if (!file.has("/body_drift_x")) return out;
+  const std::vector<std::string> names = file.texts("/body");
+  for (const std::string name : {"body_drift_x", "body_drift_y", "body_drift_moment"}) {
+    const std::string dataset = "/" + name;
+    const std::vector<double> values = file.numbers(dataset).values;
+    for (std::size_t i = 0; i < std::min(names.size(), values.size()); ++i) {
+      if (out.size() <= i) out.push_back({{"body", names[i]}});
+      out[i][name] = {{"value", values[i]}, {"unit", unit_of_field(file, dataset)}};
+    }
+  }
+  return out;
+}
+
 Json field_in(const fs::path& path, const Options& options) {
   const Hdf5Reader file(path);
   Json out{{"kind", "field"}};
@@ -85,6 +102,7 @@ Json field_in(const fs::path& path, const Options& options) {
   out["error"] = file.number_attribute("/", "error");
   out["parts"] = parts_told(file, path, x.size() * y.size());
   out["means"] = means_told(file);
+  out["body_drift"] = body_drift_told(file);
   const fs::path scene_file = options.scene_folder.value_or(path.parent_path()) / std::string(out["scene_file"]);
   out["outlines"] = outlines_told(out.value("scene_text", ""), scene_file);
   return out;

@@ -210,6 +210,16 @@ Binding<AskField> field() {
                     .within(Limit::open_fraction)
                     .only_beside("pressure"),
                 &AskField::accepted_pressure_error)
+      .optional(effect("body_drift",
+                       "mean drift of each body by itself: force along the water and moment about the vertical through "
+                       "its origin, to second order"),
+                [](const Value&, AskField& asked) { asked.body_drift = true; })
+      .optional(number("accepted_drift_error",
+                       "of the mean drift of bodies over the largest, that is taken where the [ask] accuracy is "
+                       "missed; left out: none is")
+                    .within(Limit::open_fraction)
+                    .only_beside("body_drift"),
+                &AskField::accepted_drift_error)
       .place(&AskField::place)
       .then(check_grid);
 }

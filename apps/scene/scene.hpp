@@ -501,6 +501,8 @@ struct AskField {
   bool pressure = false;      ///< on hulls is told too
   Place pressure_place = {};
   double accepted_pressure_error = 0;  ///< of the pressure over its largest, as accepted_error
+  bool body_drift = false;             ///< mean drift of each body by itself is told too
+  double accepted_drift_error = 0;     ///< of it, over the largest, as accepted_error
   Place place;
 };
 struct AskRun {

@@ -93,7 +93,7 @@ TEST(DelayOfTheForce, IsFoundThoughTheMotionIsNoisy) {
     for (std::uint64_t set = 0; set < sets; ++set) {
       auto problem = froude_test::moved_run({.position = 3e-4, .force = 0.5, .step_s = 0.02, .late_s = late}, set);
       problem.options.longest_delay = 0.5;
-      const auto& fit = solve(problem).runs.at(0).fit;
+      const fit::MorisonFit fit = solve(problem).runs.at(0).fit;
       const fit::Coefficient* found[] = {&*fit.delay, &fit.cd, &fit.inertia};
       const double truth[] = {late, froude_test::moved_cd, froude_test::moved_ca};
       for (int k = 0; k < 3; ++k) {

@@ -259,6 +259,18 @@ struct FreeSurface {
   std::vector<std::string> notes;                      ///< what had to be decided, and what is left out
   Provenance provenance = {};                          ///< without the notes
   std::shared_ptr<const HullPressures> pressure = {};  ///< on hulls, where the scene asks for it
+  /// Mean drift of each body by itself where the scene asks for it, per m² of wave amplitude: N/m² along x and y, and
+  /// N m/m² about the vertical through its origin.
+  struct BodyDrift {
+    std::string body;
+    double x, y, moment;
+  };
+  std::vector<BodyDrift> body_drift = {};
+  /// Waves far away: at the distance r along the direction `angle`, rad, the elevation that bodies add goes to
+  /// A √(2/(πkr)) e^{−i(kr − π/4)} per metre of wave amplitude; A of bodies held still and of their motion.
+  std::vector<double> angle = {};
+  std::vector<std::complex<double>> far_scattered = {}, far_radiated = {};
+  double body_drift_error = 0;  ///< estimated, over the largest
 
   const std::vector<std::complex<double>>& elevation() const { return signals.front().values; }
   /// Dimensions `y`, `x` and `complex`; of pressures `panel`, `corner`, `space` and `complex`.

@@ -270,10 +270,13 @@ MatrixXcd Array::incident(const MatrixXcd& from_outside) const {
 MatrixXcd Array::scattered(const MatrixXcd& a) const {
   MatrixXcd b = MatrixXcd::Zero(a.rows(), a.cols());
   for (std::size_t c = 0; c < cylinders_.size(); ++c)
-    for (int m = -channels_.highest_order(); m <= channels_.highest_order(); ++m)
-      for (int n = 0; n < channels_.vertical_of(m); ++n)
-        for (int l = 0; l < channels_.vertical_of(m); ++l)
-          b.row(index_(c, n, m)) += kind_of(c).scatterer->order[magnitude(m)].T(n, l) * a.row(index_(c, l, m));
+    for (int m = -channels_.highest_order(); m <= channels_.highest_order(); ++m) {
+      const int vertical = channels_.vertical_of(m);
+      MatrixXcd arriving(vertical, a.cols());
+      for (int n = 0; n < vertical; ++n) arriving.row(n) = a.row(index_(c, n, m));
+      const MatrixXcd sent = kind_of(c).scatterer->order[magnitude(m)].T.topLeftCorner(vertical, vertical) * arriving;
+      for (int n = 0; n < vertical; ++n) b.row(index_(c, n, m)) = sent.row(n);
+    }
   return b;
 }
 

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "deep.hpp"
+#include "drift.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/waves/dispersion.hpp"
 #include "model.hpp"
@@ -50,6 +51,14 @@ Amplitudes widened(const Amplitudes& a, const Channels& from, const Channels& to
   return out;
 }
 
+/// Whose each cylinder is, body by body.
+std::vector<CircleOwner> owners(const std::vector<CylinderBody>& bodies) {
+  std::vector<CircleOwner> out;
+  for (std::size_t b = 0; b < bodies.size(); ++b)
+    out.insert(out.end(), bodies[b].cylinders.size(), {b, bodies[b].reference_point.head<2>()});
+  return out;
+}
+
 }  // namespace
 
 // Each cylinder is a group by itself, so that it tells, of what arrives, as many of the waves that it sends out as are
@@ -68,7 +77,9 @@ SentOut Model::sent_out(double omega, double heading, const Eigen::MatrixXd& vel
   Grouping told = alone;
   const int highest = alone.between.highest_order();
   told.between.order.resize(static_cast<std::size_t>(modes_near(depth_modes, alone.between, nearest)));
-  std::fill(told.between.order.begin() + 1, told.between.order.end(), std::min(most_evanescent_orders, highest));
+  // What arrives as a wave is scattered into modes of its own orders, what arrives as a mode into those that pass.
+  for (std::size_t n = 1; n < told.between.order.size(); ++n)
+    told.between.order[n] = std::max(told.between.order[n], std::min(most_evanescent_orders, told.between.order[0]));
   told.within = told.between;
   const auto near_type = scatterers(depth_modes, told.within);
   const Groups near = groups(near_type, depth_modes, told);
@@ -94,8 +105,9 @@ potential::WaveField wave_field(const std::vector<CylinderBody>& bodies, const W
       bodies, here,
       {choose_gap_functions(bodies, water, omega, options.tolerance), threshold, options.equations, orders + 1}, omega);
   const std::vector<bool> known = outside(model.cylinders(), question.point);
-  const SentOut sent = model.sent_out(question.omega, question.heading, velocities_of(question),
-                                      nearest_outside(model.cylinders(), question.point));
+  const double nearest = std::min(nearest_outside(model.cylinders(), question.point),
+                                  question.drift ? nearest_counted(model.cylinders()) : infinite);
+  const SentOut sent = model.sent_out(question.omega, question.heading, velocities_of(question), nearest);
   const int threads = potential::thread_count(options.threads, known.size());
   const auto of_modes = [&](int from, int to) {
     return potentials_at_surface(model.cylinders(), sent.modes, sent.channels, sent.amplitude, question.point, known,
@@ -109,6 +121,12 @@ potential::WaveField wave_field(const std::vector<CylinderBody>& bodies, const W
   potential::WaveField out = field_of(first + last_fifth, sent.modes, water, question, known);
   const potential::WaveField without_last = field_of(first, sent.modes, water, question, known);
   out.far = far_field_of(sent.angle, sent.far, sent.modes, here, question.omega);
+  if (question.drift) {
+    out.on_bodies = body_drift(model.cylinders(), owners(bodies), sent.modes, sent.channels, sent.amplitude, question,
+                               here, threads);
+    // A product of two potentials has twice the tolerance.
+    out.on_bodies->estimate = 2 * options.tolerance + missed(*out.on_bodies, mean_drift(out.far, question.omega, here));
+  }
   out.estimate = options.tolerance + beyond_last_fifth * difference(without_last, out);
   return out;
 }

@@ -19,7 +19,8 @@ double depth_function_at_surface(const VerticalModes& modes, int n) {
                 : modes.cos_at_surface(n) / std::sqrt(modes.norm(modes.kappa[static_cast<std::size_t>(n - 1)]));
 }
 
-/// Q_n(r) of (C4) for m = 0 … `scale.size()` − 1.
+}  // namespace
+
 std::vector<Complex> outgoing(const VerticalModes& modes, int n, double r, double radius,
                               const std::vector<double>& scale) {
   std::vector<Complex> Q(scale.size());
@@ -35,15 +36,12 @@ std::vector<Complex> outgoing(const VerticalModes& modes, int n, double r, doubl
   return Q;
 }
 
-/// The modes that reach from the side of a cylinder to a point `distance` from it, the wave among them.
 int modes_that_reach(const VerticalModes& modes, double distance, int vertical) {
   constexpr double weakest = 37;  // e⁻³⁷: rounding
   int n = 1;
   while (n < vertical && modes.kappa[static_cast<std::size_t>(n - 1)] * distance < weakest) ++n;
   return n;
 }
-
-}  // namespace
 
 std::vector<bool> outside(const std::vector<Cylinder>& cylinders, const Eigen::MatrixX2d& point) {
   std::vector<bool> out;

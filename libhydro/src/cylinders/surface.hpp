@@ -16,6 +16,12 @@ std::vector<bool> outside(const std::vector<Cylinder>& cylinders, const Eigen::M
 /// The distance of the nearest of those from a circle, m; +∞ if there is none.
 double nearest_outside(const std::vector<Cylinder>& cylinders, const Eigen::MatrixX2d& point);
 
+/// Q_n(r) of (C4) for m = 0 … `scale.size()` − 1.
+std::vector<std::complex<double>> outgoing(const VerticalModes& modes, int n, double r, double radius,
+                                           const std::vector<double>& scale);
+/// The modes, of `vertical`, that reach from the side of a cylinder to a point `distance` from it, the wave among them.
+int modes_that_reach(const VerticalModes& modes, double distance, int vertical);
+
 /// Σ b Q_n(r) e^{imθ} Z_n(0) over all cylinders, one row a point, one column a column of `sent_out`, whose rows are as
 /// WaveIndex(channels) has them. Of modes only those from `from` to before `to`. Rows of points that are not `known`
 /// are 0.

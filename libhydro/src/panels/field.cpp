@@ -19,8 +19,14 @@ potential::WaveField wave_field(const std::vector<HullBody>& bodies, const Water
   potential::WaveField out = coarse->refined()->solver()->field(question, threads);
   out.estimate = difference(before, out);
   if (out.on_hulls) out.on_hulls->estimate = difference(*before.on_hulls, *out.on_hulls, &pieces_when_refined);
-  if (const auto more = coarse->with_more_partial_waves())
-    out.estimate += difference(before, more->field(question, threads));
+  if (out.on_bodies)
+    out.on_bodies->estimate = difference(*before.on_bodies, *out.on_bodies) +
+                              missed(*out.on_bodies, mean_drift(out.far, question.omega, water));
+  if (const auto more = coarse->with_more_partial_waves()) {
+    const potential::WaveField with_more = more->field(question, threads);
+    out.estimate += difference(before, with_more);
+    if (out.on_bodies) out.on_bodies->estimate += difference(*before.on_bodies, *with_more.on_bodies);
+  }
   return out;
 }
 

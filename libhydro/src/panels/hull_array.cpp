@@ -164,6 +164,9 @@ class ArraySolver : public Solver {
                                          waves.channels.vertical(), threads),
         waves.modes, water_, question, known);
     out.far = cylinders::far_field_of(angle, all.far_field(sent, angle), waves.modes, water_, question.omega);
+    if (question.drift)
+      out.on_bodies = cylinders::body_drift(places_->circle, places_->owner, waves.modes, waves.channels, sent,
+                                            question, waves.water, threads);
     return out;
   }
 
@@ -258,6 +261,7 @@ HullPlaces places_of(const std::vector<HullBody>& bodies) {
     const Vector3d axis(out.circle[b].centre.x(), out.circle[b].centre.y(), 0);
     const auto at = 6 * static_cast<Index>(b);
     out.motion.block<6, 6>(at, at) = potential::rigid_shift(axis - bodies[b].reference_point);
+    out.owner.push_back({b, bodies[b].reference_point.head<2>()});
   }
   out.lattice = cylinders::find_lattice(out.circle);
   return out;

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "cylinders/answers.hpp"
+#include "cylinders/drift.hpp"
 #include "one_frequency.hpp"
 
 namespace hydro::panels {
@@ -20,6 +21,7 @@ struct HullPlaces {
   std::vector<cylinders::Cylinder> circle_of_kind;  ///< about the origin
   std::vector<cylinders::Cylinder> circle;          ///< of each body: about its wet part
   std::vector<std::size_t> kind_of;                 ///< each body
+  std::vector<cylinders::CircleOwner> owner;        ///< of each circle, one a body
   Eigen::MatrixXd motion;                           ///< (6N, 6N): velocities at the axes when the bodies move
   std::optional<cylinders::Lattice> lattice;        ///< found in the places
 };

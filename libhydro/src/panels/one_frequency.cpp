@@ -57,15 +57,17 @@ MatrixXd Model::points(double K) const {
   return out;
 }
 
+Complex Model::incident(double omega, double k, double heading, const Vector3d& at) const {
+  const double along = at.x() * std::cos(heading) + at.y() * std::sin(heading);
+  return i_unit * (water_.gravity / omega * profile(k, at.z())) * std::polar(1.0, -k * along);
+}
+
 MatrixXcd Model::incident(double omega, double k, const std::vector<double>& heading) const {
   const MatrixXd point = points(0);
   MatrixXcd out(point.rows(), static_cast<Index>(heading.size()));
-  for (Index b = 0; b < out.cols(); ++b) {
-    const double c = std::cos(heading[static_cast<std::size_t>(b)]), s = std::sin(heading[static_cast<std::size_t>(b)]);
+  for (Index b = 0; b < out.cols(); ++b)
     for (Index i = 0; i < out.rows(); ++i)
-      out(i, b) = i_unit * (water_.gravity / omega * profile(k, point(i, 2))) *
-                  std::polar(1.0, -k * (point(i, 0) * c + point(i, 1) * s));
-  }
+      out(i, b) = incident(omega, k, heading[static_cast<std::size_t>(b)], point.row(i).transpose());
   return out;
 }
 

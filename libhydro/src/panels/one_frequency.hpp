@@ -26,6 +26,8 @@ class Model {
   Potentials potentials(double K, const Eigen::MatrixXcd& incident) const;
   /// The same in a wave of unit amplitude.
   Potentials in_wave(double omega, double heading) const;
+  /// Of that wave without bodies, at a place in the water; k is its wavenumber.
+  std::complex<double> incident(double omega, double k, double heading, const Eigen::Vector3d& at) const;
   /// Waves far away of bodies with these velocities, as in_wave() has their potentials. (P38)
   potential::FarField far_field(const Potentials& phi, double omega, double heading,
                                 const Eigen::VectorXcd& velocity) const;

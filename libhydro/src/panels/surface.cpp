@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "drift.hpp"
 #include "hydro/base/parallel.hpp"
 #include "hydro/waves/dispersion.hpp"
 #include "pressure.hpp"
@@ -16,28 +17,6 @@ using Complex = std::complex<double>;
 using Eigen::Index;
 using Eigen::Vector3d;
 using std::numbers::pi;
-
-/// Potentials and velocities along the normals on all panels: what Green's theorem needs of one motion of the water.
-struct OnPanels {
-  Eigen::VectorXcd potential, velocity;
-};
-
-/// 4π φ at a point of the surface, of two motions: the waves that hulls held still add, and those they make.
-std::array<Complex, 2> by_greens_theorem(const PanelMesh& mesh, const WaterDepth& depth, const WaveGreen& green,
-                                         const OnPanels& scattered, const OnPanels& radiated, const Vector3d& P) {
-  std::array<Complex, 2> sum{};
-  const auto panels = static_cast<Index>(mesh.hull.size());
-  for (std::size_t s = 0; s < mesh.images.size(); ++s) {
-    const Vector3d from = mesh.images[s] * P;
-    for (Index j = 0; j < panels; ++j) {
-      const Influence of = influence(green, depth, mesh.hull[static_cast<std::size_t>(j)], from);
-      const Index row = static_cast<Index>(s) * panels + j;
-      sum[0] += of.dipole * scattered.potential(row) - of.source * scattered.velocity(row);
-      sum[1] += of.dipole * radiated.potential(row) - of.source * radiated.velocity(row);
-    }
-  }
-  return sum;
-}
 
 }  // namespace
 
@@ -63,8 +42,9 @@ potential::WaveField field_of(const Model& model, const Water& water, const pote
   const PanelMesh& mesh = model.mesh();
   const Potentials phi = model.in_wave(question.omega, question.heading);
   const Eigen::VectorXcd velocity = Complex(0, question.omega) * question.motion;
-  const OnPanels scattered{phi.wave.col(0), Eigen::VectorXcd::Zero(phi.wave.rows())},
-      radiated{phi.motion * velocity, model.all().normal * velocity};
+  const std::array<OnPanels, 2> scattered_and_radiated{
+      OnPanels{phi.wave.col(0), Eigen::VectorXcd::Zero(phi.wave.rows())},
+      OnPanels{phi.motion * velocity, model.all().normal * velocity}};
   double reach = 0;
   for (Index p = 0; p < question.point.rows(); ++p)
     reach = std::max(reach,
@@ -77,12 +57,13 @@ potential::WaveField field_of(const Model& model, const Water& water, const pote
                            .known = outside(mesh, question.point)};
   out.far = model.far_field(phi, question.omega, question.heading, velocity);
   if (question.pressure) out.on_hulls = pressure_of(model, water, question, phi);
+  if (question.drift) out.on_bodies = drift_of(model, water, question, phi, threads);
   const Complex elevation = Complex(0, -question.omega / water.gravity) / (4 * pi);
   in_parallel(out.known.size(), threads, [&](std::size_t i) {
     if (!out.known[i]) return;
     const auto p = static_cast<Index>(i);
-    const auto four_pi_phi = by_greens_theorem(mesh, water.depth, green, scattered, radiated,
-                                               {question.point(p, 0), question.point(p, 1), 0});
+    const Vector3d P(question.point(p, 0), question.point(p, 1), 0);
+    const auto four_pi_phi = by_greens_theorem(mesh, water.depth, green, scattered_and_radiated, P, P);
     out.scattered(p) = elevation * four_pi_phi[0];
     out.radiated(p) = elevation * four_pi_phi[1];
   });

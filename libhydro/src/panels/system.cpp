@@ -78,11 +78,10 @@ HeightsOfPanel heights_of(const WaveGreen& green, const Panel& panel) {
 
 /// `height(level, i)`: what waves have at point i of a rule.
 template <class Height>
-WaveIntegrals wave_integrals(const WaveGreen& green, const Panel& panel, const Height& height, const Vector3d& P,
-                             const WaveHeight& of_P) {
+WaveIntegrals wave_integrals(const WaveGreen& green, const Panel& panel, std::size_t level, const Height& height,
+                             const Vector3d& P, const WaveHeight& of_P) {
   WaveIntegrals sum;
   const Vector3d& n = panel.shape.normal;
-  const std::size_t level = level_of(panel.shape, P, green.K());
   for (std::size_t i = 0; i < panel.rule[level].size(); ++i) {
     const auto& [Q, weight] = panel.rule[level][i];
     const double dx = Q.x() - P.x(), dy = Q.y() - P.y(), R = std::sqrt(dx * dx + dy * dy);
@@ -149,7 +148,8 @@ void add_waves(const PanelMesh& mesh, const WaveGreen& green, const std::vector<
       for (Index i = 0; i < rows; ++i) {
         const auto at = static_cast<std::size_t>(i);
         const Vector3d P = mesh.images[static_cast<std::size_t>(s)] * points[at];
-        const WaveIntegrals w = wave_integrals(green, panel, height, P, of_points[at]);
+        const WaveIntegrals w =
+            wave_integrals(green, panel, level_of(panel.shape, P, green.K()), height, P, of_points[at]);
         source(i, s) = w.source;
         dipole(i, s) = w.dipole;
       }
@@ -179,29 +179,32 @@ void add_incident(const MatrixXcd& incident, const PanelMesh& mesh, const Signs&
 
 namespace {
 
-/// rankine(), by the centre alone where P is so far that a few 1e-4 are lost by it.
-Rankine rankine_far_or_near(const Polygon& q, const Vector3d& P) {
+/// rankine(), by the centre alone where `decided_at`, at P or near it, is so far that a few 1e-4 are lost by it.
+Rankine rankine_far_or_near(const Polygon& q, const Vector3d& P, const Vector3d& decided_at) {
   constexpr double by_centre = 10;  // sizes of the panel
+  if ((decided_at - q.centre).norm() < by_centre * q.size) return rankine(q, P);
   const Vector3d way = P - q.centre;
   const double r = way.norm();
-  if (r < by_centre * q.size) return rankine(q, P);
   return {q.area / r, q.area * q.normal.dot(way) / (r * r * r)};
 }
 
-WaveIntegrals waves_of(const WaveGreen& green, const Panel& panel, const Vector3d& P) {
+WaveIntegrals waves_of(const WaveGreen& green, const Panel& panel, const Vector3d& P, const Vector3d& decided_at) {
   if (green.none()) return {};
   const auto height = [&](std::size_t level, std::size_t i) { return green.height(panel.rule[level][i].at.z()); };
-  return wave_integrals(green, panel, height, P, green.height(P.z()));
+  return wave_integrals(green, panel, level_of(panel.shape, decided_at, green.K()), height, P, green.height(P.z()));
 }
 
 }  // namespace
 
-Influence influence(const WaveGreen& green, const WaterDepth& depth, const Panel& panel, const Vector3d& P) {
-  const Rankine direct = rankine_far_or_near(panel.shape, P),
-                image = rankine_far_or_near(panel.shape, mirrored_in_surface(P)),
-                bed = depth.is_infinite() ? Rankine{}
-                                          : rankine_far_or_near(panel.shape, mirrored_in_bed(P, depth.metres()));
-  const WaveIntegrals wave = waves_of(green, panel, P);
+Influence influence(const WaveGreen& green, const WaterDepth& depth, const Panel& panel, const Vector3d& P,
+                    const Vector3d& decided_at) {
+  const auto of_image = [&](const auto& mirrored) {
+    return rankine_far_or_near(panel.shape, mirrored(P), mirrored(decided_at));
+  };
+  const Rankine direct = rankine_far_or_near(panel.shape, P, decided_at), image = of_image(mirrored_in_surface);
+  const Rankine bed =
+      depth.is_infinite() ? Rankine{} : of_image([&](const Vector3d& p) { return mirrored_in_bed(p, depth.metres()); });
+  const WaveIntegrals wave = waves_of(green, panel, P, decided_at);
   const double sign = green.image_sign();
   return {direct.source + sign * image.source + bed.source + wave.source,
           direct.dipole + sign * image.dipole + bed.dipole + wave.dipole};

@@ -35,11 +35,13 @@ struct RankineParts {
 /// dipole holds the image in the bed too.
 RankineParts rankine_parts(const PanelMesh& mesh, const AllPanels& all, const WaterDepth& depth);
 
-/// ∬ G dS and ∬ ∂G/∂n dS of a panel, at a point P in the water or at its surface that is not on the panel.
+/// ∬ G dS and ∬ ∂G/∂n dS of a panel, at a point P in the water or at its surface that is not on the panel; by rules
+/// that suit a point `decided_at`, so that places near it have the same.
 struct Influence {
   std::complex<double> source, dipole;
 };
-Influence influence(const WaveGreen& green, const WaterDepth& depth, const Panel& panel, const Eigen::Vector3d& P);
+Influence influence(const WaveGreen& green, const WaterDepth& depth, const Panel& panel, const Eigen::Vector3d& P,
+                    const Eigen::Vector3d& decided_at);
 
 /// Potentials of unit motions and, total, of unit waves at the centres of all panels.
 struct Potentials {

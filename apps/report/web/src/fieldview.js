@@ -171,6 +171,26 @@ export function extremesTable(field) {
   });
 }
 
+/** Mean drift of each body by itself, where it was asked for. */
+function bodyDrift(bodies, told) {
+  if (!bodies.length) return [];
+  const largest = (name) => Math.max(...bodies.map((one) => Math.abs(one[name].value)));
+  const force = Math.max(largest('body_drift_x'), largest('body_drift_y')),
+    moment = largest('body_drift_moment');
+  return [
+    table(
+      ['Body', 'Force along x', 'Force along y', 'Moment about the vertical'],
+      bodies.map((one) => [
+        one.body,
+        told(one.body_drift_x, force),
+        told(one.body_drift_y, force),
+        told(one.body_drift_moment, moment),
+      ]),
+      'Mean drift of each body by itself, moments through its origin, per square metre of wave amplitude',
+    ),
+  ];
+}
+
 /** Mean drift and power, per square metre of wave amplitude. */
 export function meansTable(field) {
   return following(() => {
@@ -203,11 +223,12 @@ export function meansTable(field) {
         ],
         'Mean drift and power per square metre of wave amplitude',
       ),
+      ...bodyDrift(field.body_drift, told),
       h(
         'p',
         { class: 'note' },
-        'To second order, by what waves carry far away. Forces of single bodies, vertical ones and moments are not ' +
-          'known. ' +
+        'To second order, by what waves carry far away. Vertical forces are not known, and forces of single bodies ' +
+          'only where body_drift of the scene asks for them. ' +
           (field.bodies === 'held still'
             ? 'Bodies that are held still take no power: what they seem to take is the error of these numbers.'
             : ''),

@@ -9,6 +9,7 @@
 #include <optional>
 #include <vector>
 
+#include "hydro/potential/body_drift.hpp"
 #include "hydro/potential/far_field.hpp"
 #include "hydro/potential/hull_pressure.hpp"
 
@@ -21,6 +22,7 @@ struct FieldQuestion {
   Eigen::VectorXcd motion;  ///< (6N), of the bodies about their reference points, m/m and rad/m; zeros: held still
   Eigen::MatrixX2d point;   ///< x and y, global, m
   bool pressure = false;    ///< on hulls too; only of panels that are solved together
+  bool drift = false;       ///< of each body by itself too
 };
 
 /// The surface at these points.
@@ -36,6 +38,7 @@ struct WaveField {
   double estimate = 0;
   FarField far = {};                          ///< the same waves far away
   std::optional<HullPressure> on_hulls = {};  ///< where it is asked for
+  std::optional<BodyDrift> on_bodies = {};    ///< where it is asked for
 
   Eigen::VectorXcd total() const { return incident + scattered + radiated; }
 };
