@@ -15,6 +15,16 @@ std::vector<std::size_t> shape_of(const Responses& r) {
 }
 std::vector<std::size_t> shape_of(const FreeSurface& surface) { return {surface.y.size(), surface.x.size()}; }
 
+/// Writes what is HDF5 under a name that says so. \throws hydro::InputError
+template <class Result>
+void write_result(const Result& result, const std::filesystem::path& file) {
+  if (file.extension() != ".h5" && file.extension() != ".nc")
+    throw hydro::InputError(
+        fmt::format("a result is HDF5, so its file cannot end in \"{}\"", file.extension().string()),
+        {.file = file.string()}, "end it in .h5 or .nc; froude.export makes tables of it");
+  result.write(file);
+}
+
 template <class Result>
 std::vector<std::string> names_of(const Result& result) {
   std::vector<std::string> out;
@@ -59,10 +69,9 @@ void add_signals(py::class_<Result>& type) {
       .def_property_readonly(
           "settings", [](const Result& r) { return dict_of(r.provenance.settings); },
           "Every key of the scene that acts and its value, defaults included.")
-      .def(
-          "write", [](const Result& r, const std::filesystem::path& file) { r.write(file); }, py::arg("file"),
-          "Writes the file that the program writes: HDF5, which is netCDF-4 too.\n\n"
-          "It is there as a whole or not at all. Raises InputError if it cannot be written.");
+      .def("write", write_result<Result>, py::arg("file"),
+           "Writes the file that the program writes: HDF5, which is netCDF-4 too.\n\n"
+           "It is there as a whole or not at all. Raises InputError if it cannot be written.");
 }
 
 /// What runs and responses tell of their accuracy.
@@ -207,9 +216,8 @@ void add_modes(py::module_& m) {
           },
           "True where the frequency is outside those of the coefficients, shape (mode,).")
       .def_readonly("notes", &Modes::notes, "What had to be decided, and what is left out; a sentence each.")
-      .def(
-          "write", [](const Modes& modes, const std::filesystem::path& file) { modes.write(file); }, py::arg("file"),
-          "Writes the file that the program writes: HDF5, which is netCDF-4 too.");
+      .def("write", write_result<Modes>, py::arg("file"),
+           "Writes the file that the program writes: HDF5, which is netCDF-4 too.");
   add_dataset(type, "of_modes", "xarray.Dataset along `mode` and `motion`.");
 }
 

@@ -186,6 +186,25 @@ ResponseSpectra answer_of(const scene::Scene& scene, std::size_t sea, const Dens
   return out;
 }
 
+/// Of the frequencies asked for those within the band that the scene cuts its sea to, and its ends, so that nothing
+/// beyond them has a part. \throws InputError if none is
+std::vector<double> within(const SeaBand& band, const scene::AskRao& asked) {
+  std::vector<double> out;
+  const auto [low, high] = band;
+  const bool begins = low > asked.omega.front() && low<asked.omega.back(), ends = high> asked.omega.front() &&
+                      high < asked.omega.back();
+  if (begins) out.push_back(low);
+  for (const double omega : asked.omega)
+    if (omega >= low && omega <= high && (out.empty() || omega > out.back())) out.push_back(omega);
+  if (ends && (out.empty() || high > out.back())) out.push_back(high);
+  if (out.size() < 2)
+    throw InputError(fmt::format("of the frequencies of [ask.rao], {:.4g} to {:.4g} rad/s, the sea has none: "
+                                 "[waves.components] cut it to {:.4g} to {:.4g} rad/s",
+                                 asked.omega.front(), asked.omega.back(), low, high),
+                     asked.place, "ask for frequencies of the sea");
+  return out;
+}
+
 /// Of seas whose transfer functions are the same.
 std::vector<ResponseSpectra> spectra_of_seas(const std::vector<const scene::Scene*>& seas,
                                              const std::shared_ptr<compile::Kept>& kept) {
@@ -193,15 +212,16 @@ std::vector<ResponseSpectra> spectra_of_seas(const std::vector<const scene::Scen
   if (scene.rao->omega.size() < 2)
     throw InputError("spectra of responses need two frequencies of [ask.rao] at least", scene.rao->place,
                      "give a range, for example periods = \"3 s .. 25 s, 45 values\"");
+  const std::vector<double> omega = within(band_of(random_sea(scene)), *scene.rao);
   const bool spread =
       std::any_of(seas.begin(), seas.end(), [](const scene::Scene* sea) { return has_spreading(random_sea(*sea)); });
   auto found = std::make_unique<Densities>(seas, spread ? 18 : 1, kept);
-  found->refine(scene.rao->omega);
+  found->refine(omega);
   double error_of_headings = 0;
   constexpr int most = 288;  // sectors
   for (int sectors = 36; spread; sectors *= 2) {
     auto finer = std::make_unique<Densities>(seas, sectors, kept);
-    finer->refine(scene.rao->omega);
+    finer->refine(omega);
     error_of_headings = largest_change(found->variances(), finer->variances());
     found = std::move(finer);
     if (error_of_headings < scene.accuracy / 2) break;

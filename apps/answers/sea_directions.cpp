@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "hydro/base/error.hpp"
@@ -70,11 +71,18 @@ bool has_spreading(const scene::RandomSea& sea) {
   return std::any_of(sea.systems.begin(), sea.systems.end(), [](const auto& s) { return s.spreading != nullptr; });
 }
 
+SeaBand band_of(const scene::RandomSea& sea) {
+  return {sea.lowest.value_or(0), sea.highest.value_or(std::numeric_limits<double>::infinity())};
+}
+
 double share_outside(const scene::RandomSea& sea, double low, double high) {
+  const SeaBand band = band_of(sea);
+  const bool cut = sea.lowest || sea.highest;
   double all = 0, inside = 0;
   for (const auto& system : sea.systems) {
-    all += system.spectrum->moment(0);
-    inside += system.spectrum->energy(low, high);
+    all += cut ? system.spectrum->energy(band.low, band.high) : system.spectrum->moment(0);
+    const double from = std::max(low, band.low), to = std::min(high, band.high);
+    if (to > from) inside += system.spectrum->energy(from, to);
   }
   return std::max(0.0, 1 - inside / all);
 }

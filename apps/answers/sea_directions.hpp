@@ -30,7 +30,13 @@ System system_of(const scene::WaveSystem& waves, int sectors, std::vector<double
 
 bool has_spreading(const scene::RandomSea& sea);
 
-/// The share of the sea's energy outside a band, rad/s.
+/// The frequencies that the scene cuts its spectrum to, rad/s; 0 and +∞ where it says nothing.
+struct SeaBand {
+  double low, high;
+};
+SeaBand band_of(const scene::RandomSea& sea);
+
+/// The share of the sea's energy, as the scene cuts it, outside a band, rad/s.
 double share_outside(const scene::RandomSea& sea, double low, double high);
 
 }  // namespace froude

@@ -90,7 +90,7 @@ SecondOrderLoads::SecondOrderLoads(const scene::Scene& scene, const std::vector<
     });
     for (int mode = 0; mode < 6; ++mode) modes_.push_back(6 * static_cast<int>(b) + mode);
   }
-  set_range();
+  set_range(band_of(random_sea(scene)));
   set_intervals();
 }
 
@@ -120,7 +120,7 @@ void SecondOrderLoads::add_body(const scene::Body& body, const Eigen::Vector3d& 
   bodies_.push_back(std::move(of));
 }
 
-void SecondOrderLoads::set_range() {
+void SecondOrderLoads::set_range(const SeaBand& band) {
   low_ = bodies_.front().omega.front(), high_ = bodies_.front().omega.back();
   for (const OfBody& body : bodies_)
     for (const auto* omega : {&body.omega, &body.sum_omega})
@@ -128,6 +128,8 @@ void SecondOrderLoads::set_range() {
         low_ = std::min(low_, omega->front());
         high_ = std::max(high_, omega->back());
       }
+  low_ = std::max(low_, band.low);
+  high_ = std::min(high_, band.high);
 }
 
 // No integral begins with intervals that miss the peak of the sea.

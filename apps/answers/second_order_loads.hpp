@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "answers/sea_directions.hpp"
 #include "compile/quadratic_transfer.hpp"
 #include "dynamics/state/body.hpp"
 #include "scene/scene.hpp"
@@ -66,7 +67,7 @@ class SecondOrderLoads {
 
   void add_body(const scene::Body& body, const Eigen::Vector3d& to_centre, const scene::Scene& scene,
                 const compile::SecondOrderFiles& files);
-  void set_range();
+  void set_range(const SeaBand& band);
   void set_intervals();
   void add_pair(const OfBody& body, Pairs kind, const Wave& a, const Wave& b, Eigen::Ref<Load> out) const;
   Load of_equal_waves(std::size_t ray, double omega) const;

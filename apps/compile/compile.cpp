@@ -44,8 +44,7 @@ void add_springs(const Prepared& p, std::vector<std::unique_ptr<const dynamics::
   if (!p.with_gravity.empty())
     forces.push_back(std::make_unique<dynamics::GravityKind>(p.bodies, p.water.gravity, p.with_gravity));
   if (!p.buoyancy.empty()) forces.push_back(std::make_unique<dynamics::BuoyancyKind>(p.bodies, p.buoyancy, p.water));
-  if (!p.hydrostatics.empty())
-    forces.push_back(std::make_unique<dynamics::RestoringKind>("hydrostatics", p.bodies, p.hydrostatics));
+  if (!p.hydrostatics.empty()) forces.push_back(std::make_unique<dynamics::HydrostaticsKind>(p.bodies, p.hydrostatics));
   if (!p.moorings.empty()) forces.push_back(std::make_unique<dynamics::RestoringKind>("mooring", p.bodies, p.moorings));
   if (!p.catenaries.empty()) forces.push_back(std::make_unique<dynamics::CatenaryMooringKind>(p.catenaries));
   if (!p.axial.empty()) forces.push_back(std::make_unique<dynamics::AxialConnectorKind>(p.axial));
@@ -143,6 +142,30 @@ void require_still_water(const Scene& scene, std::string_view what) {
                      *scene.current_place, "take [current] out, or step a run of members, which have it");
 }
 
+namespace {
+
+/// Where bodies float so much deeper or higher than the water line of their matrix that its roll or pitch is off by
+/// more than the accuracy asked: a wall-sided hull has ½ C₃₃ s² more of both, s being how far it has gone.
+void note_other_waterlines(const dynamics::Model& model, const dynamics::State& still, double accuracy,
+                           std::vector<std::string>& notes) {
+  for (const auto& kind : model.forces()) {
+    const auto* hydrostatics = dynamic_cast<const dynamics::HydrostaticsKind*>(kind.get());
+    if (!hydrostatics) continue;
+    for (const dynamics::Hydrostatics& e : hydrostatics->all()) {
+      const dynamics::RigidBody& body = model.bodies()[static_cast<std::size_t>(e.body)];
+      const double s = still.pose[static_cast<std::size_t>(e.body)].centre.z() - body.rest_centre().z(),
+                   more = 0.5 * e.stiffness(0, 0) * s * s, least = e.stiffness.diagonal().tail<2>().minCoeff();
+      if (least <= 0 || more <= accuracy * least) continue;
+      notes.push_back(fmt::format(
+          "{} balances {:.3g} m {} the water line that its restoring matrix is for; with upright sides it has {:.2g} % "
+          "more stiffness in roll or pitch there: [body.buoyancy] takes the hull as it floats",
+          body.name(), std::abs(s), s < 0 ? "below" : "above", 100 * more / least));
+    }
+  }
+}
+
+}  // namespace
+
 dynamics::frequency::SmallMotions small_motions(const Scene& scene, const dynamics::Model& model,
                                                 const scene::About& about, std::vector<std::string>& notes) {
   require_still_water(scene, "small motions");
@@ -152,6 +175,7 @@ dynamics::frequency::SmallMotions small_motions(const Scene& scene, const dynami
     dynamics::State still = dynamics::equilibrium(model, dynamics::rest_state(model.bodies()));
     notes.push_back(fmt::format("small motions are about the equilibrium, {}; coefficients stay those as placed",
                                 farthest(model, still)));
+    note_other_waterlines(model, still, scene.accuracy, notes);
     return dynamics::frequency::SmallMotions(model, std::move(still), std::move(inertia));
   });
 }

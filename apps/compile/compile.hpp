@@ -15,6 +15,7 @@
 #include "dynamics/force/contact.hpp"
 #include "dynamics/force/fastened_line.hpp"
 #include "dynamics/force/friction.hpp"
+#include "dynamics/force/hydrostatics.hpp"
 #include "dynamics/force/pto.hpp"
 #include "dynamics/force/recorded_load.hpp"
 #include "dynamics/force/restoring.hpp"
@@ -55,7 +56,8 @@ struct Prepared {
   std::vector<scene::Memory> memory;            ///< one a group
   std::vector<std::vector<int>> sharing_waves;  ///< bodies that make waves, in sets within which they reach each other
   std::shared_ptr<Kept> kept;
-  std::vector<dynamics::Restoring> hydrostatics, moorings;
+  std::vector<dynamics::Hydrostatics> hydrostatics;
+  std::vector<dynamics::Restoring> moorings;
   std::vector<int> with_gravity;  ///< bodies that feel gravity by themselves
   std::vector<dynamics::Buoyancy> buoyancy;
   hydro::Water water;

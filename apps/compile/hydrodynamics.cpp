@@ -483,6 +483,41 @@ class Placement {
   std::vector<Eigen::Vector3d> points_;
 };
 
+/// Still water holds heave, roll and pitch; of what a body that is out of balance feels as it yaws, entries 4,6 and 5,6
+/// of C, moment_of_buoyancy() or what balances it takes care. \throws InputError for stiffness of other modes
+void require_hydrostatic(const Scene& scene, int body, const dynamics::Matrix6& C) {
+  constexpr double rounding = 1e-4;  // of what a program's panels leave
+  const double heave = std::abs(C(2, 2)), tilt = std::max(std::abs(C(3, 3)), std::abs(C(4, 4)));
+  const double scale[6] = {heave, heave, heave, tilt, tilt, tilt};
+  for (const Eigen::Index mode : {0, 1, 5})
+    for (Eigen::Index other = 0; other < 6; ++other) {
+      const bool of_yaw = mode == 5 && (other == 3 || other == 4);
+      const double largest = std::max(std::abs(C(mode, other)), std::abs(C(other, mode)));
+      if (of_yaw || largest <= rounding * std::sqrt(scale[mode] * scale[other])) continue;
+      throw InputError(
+          fmt::format("the restoring matrix of \"{}\" has {:.4g} between {} and {}, where still water has no stiffness",
+                      scene.bodies[static_cast<std::size_t>(body)].name, largest,
+                      hydro::mode_names[static_cast<std::size_t>(mode)],
+                      hydro::mode_names[static_cast<std::size_t>(other)]),
+          hydrodynamics(scene, body).file.place,
+          "take the moorings out of that matrix, and give them as a [[mooring]]");
+    }
+}
+
+/// How far gravity acts beside buoyancy, which a linear matrix takes to be in balance.
+void note_out_of_balance(const Scene& scene, int body, const hydro::potential::BodyData& facts,
+                         std::vector<std::string>& notes) {
+  if (is_jointed(scene, body) || !facts.centre_of_buoyancy || !facts.displaced_volume) return;
+  const scene::Body& b = scene.bodies[static_cast<std::size_t>(body)];
+  const Eigen::Vector2d beside = (b.position + b.centre_of_gravity - *facts.centre_of_buoyancy).head<2>();
+  constexpr double seen = 1e-3;  // of the cube root of the volume
+  if (beside.norm() <= seen * std::cbrt(*facts.displaced_volume)) return;
+  notes.push_back(fmt::format(
+      "{}: its centre of gravity is {:.4g} m beside the vertical through its centre of buoyancy, a moment of "
+      "{:.4g} N m: a linear restoring matrix takes them to be in balance",
+      b.name, beside.norm(), beside.norm() * b.mass * scene.water.gravity));
+}
+
 void add_hydrostatics(const Scene& scene, const Coefficients& about_centres, const std::vector<int>& bodies,
                       Prepared& prepared) {
   const Hydrodynamics& h = hydrodynamics(scene, bodies.front());
@@ -493,10 +528,12 @@ void add_hydrostatics(const Scene& scene, const Coefficients& about_centres, con
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const auto row = 6 * static_cast<Eigen::Index>(i);
     const dynamics::Matrix6 C = about_centres.C->block<6, 6>(row, row);
+    require_hydrostatic(scene, bodies[i], C);
+    note_out_of_balance(scene, bodies[i], about_centres.body[i], prepared.notes);
     prepared.hydrostatics.push_back({.body = bodies[i],
-                                     .stiffness = hydro::dense::symmetric_part(C),
+                                     .stiffness = hydro::dense::symmetric_part(C.block<3, 3>(2, 2).eval()),
                                      .lift = lift(scene, bodies[i], about_centres.body[i]),
-                                     .moment = moment_of_buoyancy(scene, bodies[i], about_centres.body[i])});
+                                     .moment = moment_of_buoyancy(scene, bodies[i], about_centres.body[i]).head<2>()});
   }
 }
 

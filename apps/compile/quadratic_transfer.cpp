@@ -13,6 +13,22 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 
+/// Headings round the whole circle, the first of which is not there again at its end: it is put there.
+void close_circle(QuadraticTransfer& T) {
+  const std::size_t n = T.heading.size();
+  if (n < 3) return;
+  double step = 0;
+  for (std::size_t i = 1; i < n; ++i) step = std::max(step, T.heading[i] - T.heading[i - 1]);
+  const double turn = 2 * std::numbers::pi, gap = T.heading.front() + turn - T.heading.back();
+  constexpr double rounding = 1e-6;  // degrees are printed with few digits
+  if (gap < rounding || gap > step + rounding) return;
+  std::vector<Matrices> closed;
+  for (std::size_t i = 0; i <= n; ++i)
+    for (std::size_t j = 0; j <= n; ++j) closed.push_back(T.of_headings[i % n * n + j % n]);
+  T.of_headings = std::move(closed);
+  T.heading.push_back(T.heading.front() + turn);
+}
+
 QuadraticTransfer read(const scene::Located<std::filesystem::path>& file, const scene::SecondOrder& asked,
                        const hydro::Water& water, std::vector<std::string>& notes) {
   QuadraticTransfer out = hydro::potential::read_second_order(file.value, {.density = water.density,
@@ -21,6 +37,7 @@ QuadraticTransfer read(const scene::Located<std::filesystem::path>& file, const 
                                                                            .iperout = asked.iperout,
                                                                            .body = asked.body});
   notes.insert(notes.end(), out.notes.begin(), out.notes.end());
+  close_circle(out);
   return out;
 }
 

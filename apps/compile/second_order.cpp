@@ -171,6 +171,12 @@ void add_second_order(const scene::Scene& scene, const std::vector<dynamics::Rig
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
     if (!scene.bodies[b].second_order || !scene.waves) continue;
     const scene::SecondOrder& asked = *scene.bodies[b].second_order;
+    if (scene.current_place)
+      throw hydro::InputError(
+          fmt::format(
+              "second-order loads on \"{}\" are those of still water: a current changes drift by much of itself",
+              scene.bodies[b].name),
+          asked.place, "leave `second_order` out, or take [current] out");
     if (sea == nullptr)
       throw InputError("second-order loads are for waves that are a sum of linear ones", asked.place,
                        "take regular waves of linear theory, a sea or a list");

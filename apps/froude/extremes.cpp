@@ -13,6 +13,7 @@
 #include "hydro/base/units.hpp"
 #include "hydro/io/csv.hpp"
 #include "hydro/signal/peaks.hpp"
+#include "hydro/signal/zero_crossings.hpp"
 #include "scene/placed.hpp"
 
 namespace froude {
@@ -30,6 +31,7 @@ struct Extremes {
   std::size_t above;
   hs::BlockMaxima blocks;
   std::optional<StepsDone> prepared;  // where steps were asked for
+  double missed = 0;                  // share of crests that lies between samples
 };
 
 /// The level that a tenth of the peaks is above, or twenty where that is fewer, or half: many make a tail, and only
@@ -67,6 +69,7 @@ Extremes find(const ExtremesArguments& a) {
                .blocks = {},
                .prepared = std::move(prepared)};
   for (double& v : out.signal.values) v *= out.sign;
+  out.missed = hs::missed_of_crests(record.time, out.signal.values);
   out.peaks = hs::crests(record.time, out.signal.values);
   const double threshold =
       a.threshold ? out.sign * option_si("--threshold", *a.threshold, hydro::parse_unit(out.signal.units).dimension)
@@ -111,6 +114,13 @@ Report report_of(const Extremes& e) {
     out.one_of("estimates", estimate(e, e.tail, e.above, p, "peaks over threshold"));
     out.one_of("estimates", estimate(e, e.blocks, e.maxima.size(), p, "block maxima"));
   }
+  constexpr double told = 0.01;  // thirteen samples a wave
+  if (e.missed > told)
+    out.sentences("cautions", "caution: {}",
+                  {fmt::format("samples miss {:.2g} % of the crests' height on average, and levels are too low by as "
+                               "much: sample twenty times a wave, or put a curve through the samples first, `froude "
+                               "prepare` with resample",
+                               100 * e.missed)});
   if (e.duration > 10 * e.recorded)
     out.sentences("notes", "note: {}",
                   {fmt::format("{:.3g} times the record: far beyond what it holds, where the law "

@@ -15,6 +15,7 @@
 #include "hydro/base/error.hpp"
 #include "hydro/base/units.hpp"
 #include "hydro/io/csv.hpp"
+#include "hydro/signal/zero_crossings.hpp"
 #include "scene/placed.hpp"
 
 namespace froude {
@@ -27,6 +28,7 @@ struct Counted {
   Signal signal;
   std::vector<hs::Cycle> cycles;
   double duration;  ///< s
+  double missed;    ///< share of crests that lies between samples
 
   double count() const {
     return std::accumulate(cycles.begin(), cycles.end(), 0.0, [](double sum, const auto& c) { return sum + c.count; });
@@ -49,9 +51,22 @@ Counted count(const FatigueArguments& a) {
   hydro::require(!record.time.empty(), "the record has no samples");
   if (a.from) drop_before(record, option_si("--from", *a.from, hydro::dim::time), a.file);
   const Signal& signal = signal_of(record, a.signal, a.file);
-  Counted out{signal, hs::rainflow(signal.values), record.time.back() - record.time.front()};
+  Counted out{signal, hs::rainflow(signal.values), record.time.back() - record.time.front(),
+              hs::missed_of_crests(record.time, signal.values)};
   hydro::require(!out.cycles.empty(), "{} never changes: it has no cycles", a.signal);
   return out;
+}
+
+/// Ranges that are too short because crests lie between samples, and what that does to damage.
+std::vector<std::string> cautions_of(const Counted& c, const std::optional<SnOfUnit>& sn) {
+  constexpr double told = 0.01;  // of ranges: thirteen samples a wave
+  if (c.missed <= told) return {};
+  std::string out = fmt::format("samples miss {:.2g} % of the crests' height on average", 100 * c.missed);
+  if (sn)
+    out += fmt::format(", so that damage is about {:.2g} % too small",
+                       100 * (1 - std::pow(1 - c.missed, sn->curve.slope)));
+  return {out +
+          ": sample twenty times a wave, or put a curve through the samples first, `froude prepare` with resample"};
 }
 
 Report report_of(const Counted& c, const std::optional<SnOfUnit>& sn) {
@@ -59,6 +74,7 @@ Report report_of(const Counted& c, const std::optional<SnOfUnit>& sn) {
   out.say("{}: {} cycles in {:.6g} s, the largest range {:.5g} {}", fact("signal", c.signal.name),
           fact("cycles", c.count()), fact("duration_s", c.duration), fact("largest_range", c.largest()),
           fact("unit", c.signal.units));
+  out.sentences("cautions", "caution: {}", cautions_of(c, sn));
   if (!sn) return out.say("no damage without an S-N curve: --sn-range, --sn-cycles, --sn-slope");
   const hs::SnCurve& curve = sn->curve;
   const double damage = hs::damage(c.cycles, curve), hour = 3600;

@@ -78,12 +78,16 @@ void require_stated_alike(const TowingRun& run, const TowingRun& first) {
                             "write that of each run, or leave the columns speed_sd and force_sd out");
 }
 
+double drag_coefficient(const Cylinder& c, double speed, double force) {
+  return force / (c.length * dynamics::MorisonPerLength(c.diameter, c.density, 1, 0).drag(speed, speed));
+}
+
 TowingPoint towing_point(const Cylinder& c, const TowingRun& r) {  // (F12)
   check(c);
   check(r);
-  const double unit = c.length * dynamics::MorisonPerLength(c.diameter, c.density, 1, 0).drag(r.speed, r.speed);
-  const double cd = r.force / unit;
-  TowingPoint p{cd, std::hypot(r.force_deviation / unit, 2 * cd * r.speed_deviation / r.speed), {}};
+  const double cd = drag_coefficient(c, r.speed, r.force);
+  TowingPoint p{
+      cd, std::hypot(drag_coefficient(c, r.speed, r.force_deviation), 2 * cd * r.speed_deviation / r.speed), {}};
   if (c.viscosity) p.re = r.speed * c.diameter / *c.viscosity;
   return p;
 }

@@ -4,6 +4,8 @@ import os
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Optional, Union
 
+import numpy as np
+
 from froude import _froude
 from froude.progress import Progress, telling
 
@@ -345,6 +347,15 @@ def sweep(study: FileName, folder: Optional[FileName] = None, *, threads: Option
         return _froude.sweep(study, folder, threads, retry, told)
 
 
+def _series(name: str, values: Sequence[float]) -> np.ndarray:
+    """Values of a signal in time, as the program takes them."""
+    series = np.asarray(values)
+    if series.ndim != 1 or series.dtype.kind not in "fiub":
+        raise ValueError(f"\"{name}\" has the shape {series.shape} and the type {series.dtype}; a signal of a record is "
+                         "a list of real numbers over the time")
+    return series
+
+
 def psd(record: Union[_froude.Run, _froude.Water, Mapping[str, Sequence[float]], FileName],
         signals: Union[str, Sequence[str]] = (), *, segment: Optional[str] = None, tapers: Optional[int] = None,
         uneven: bool = False, input: Optional[str] = None, start: Optional[str] = None, end: Optional[str] = None,
@@ -381,7 +392,7 @@ def psd(record: Union[_froude.Run, _froude.Water, Mapping[str, Sequence[float]],
     """
     names = [signals] if isinstance(signals, str) else list(signals)
     given = isinstance(record, (_froude.Run, _froude.Water, Mapping))
-    content = dict(record) if isinstance(record, Mapping) else record
+    content = {name: _series(name, values) for name, values in record.items()} if isinstance(record, Mapping) else record
     return _froude.psd(content, "the record" if given else record, names, segment, tapers, uneven, input, start, end,
                        confidence)
 
@@ -422,6 +433,8 @@ def export(results: Union[FileName, Sequence[FileName]], output: FileName, *, fo
         raise ValueError(f"form is csv, matlab or vtk, not {form!r}")
     names = [signals] if isinstance(signals, str) else list(signals)
     files = [results] if isinstance(results, (str, os.PathLike)) else list(results)
+    if not files:
+        raise ValueError("export needs one result at least, and got none")
     return json.loads(_froude.export(files, output, form or "", names, start, end, every, scene_folder))["exports"]
 
 

@@ -108,6 +108,19 @@ TEST(ResponseSpectra, AreASumOverManyFrequencies) {
   EXPECT_GT(found.sea.frequency_hz.size(), 40u);
 }
 
+// The scene's run has no waves beyond its components: neither have its spectra.
+TEST(ResponseSpectra, CutTheSeaAsTheSceneDoes) {
+  const auto scene = froude::scene::parse(
+      scene_text(long_crested + "components = { lowest = \"0.6 rad/s\", highest = \"0.83 rad/s\" }\n"), "scene.toml");
+  const auto found = froude::response_spectra({&scene}).front();
+  const auto& spectrum = *std::get<froude::scene::RandomSea>(scene.waves->kind).systems.front().spectrum;
+  const double m0 = hydro::signal::moments(found.sea, hydro::signal::whole(found.sea)).m0;
+  EXPECT_NEAR(m0, spectrum.energy(0.6, 0.83), 2e-3 * m0);  // the accuracy asked
+  EXPECT_LT(m0, 0.9 * spectrum.moment(0));
+  EXPECT_NEAR(found.left_out, 0, 1e-6);
+  EXPECT_THAT(found.warnings, testing::IsEmpty());
+}
+
 TEST(ResponseSpectra, HaveTheVarianceOfARunInThatSea) {
   const auto steady = froude::scene::parse(
       scene_text(

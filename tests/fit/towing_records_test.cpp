@@ -88,6 +88,42 @@ TEST(TowingRecords, GiveTheNumbersOfTheTableWhoseNoiseTheyHave) {
   }
 }
 
+/// A tow of 50 s whose force has noise of 1 N with this memory all the time, also in the rest before it, and a zero.
+fit::RawTow noisy(double cd, double memory_s, double rest_s, std::uint64_t seed) {
+  constexpr double speed = 0.8, step = 0.02;
+  const auto n = static_cast<std::size_t>((55 + rest_s) / step);
+  const auto noise = froude_test::ar1_noise(n, std::exp(-step / memory_s), 1, seed);
+  fit::RawTow out;
+  std::vector<double> force;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double t = step * static_cast<double>(i),
+                 u = speed * std::clamp((t - rest_s) / 2, 0.0, 1.0) * std::clamp((50 + rest_s - t) / 2, 0.0, 1.0);
+    out.time.push_back(t);
+    out.speed.push_back(u);
+    force.push_back(0.5 * 997 * 0.06 * cd * u * u + 0.7 + noise[i]);
+  }
+  out.force = {{"F", std::move(force), {}}};
+  return out;
+}
+
+// Few samples of a short rest do not know how long their noise remembers; the steady part does.
+TEST(TowingRecords, CountTheMemoryOfTheNoiseInAShortRest) {
+  constexpr double cd = 1.1;
+  int held = 0;
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    const auto interval = solve(problem_of({noisy(cd, 1, 4, 900 + seed)})).records[0].cd.interval;
+    held += interval.low < cd && cd < interval.high ? 1 : 0;
+  }
+  EXPECT_GE(held, 50);  // binomial with p = 0.95 and 60 tows: 57 ± 1.7; four deviations below
+}
+
+TEST(TowingRecords, MayHaveSamplesWhoseNoiseTurnsTheirSign) {
+  Problem problem = problem_of({noisy(0.15, 0.1, 10, 1)});  // 1.4 N with noise of 1 N
+  problem.options.prepare.filters.clear();
+  const auto found = solve(problem);
+  EXPECT_NEAR(*found.records[0].cd.value, 0.15, 4 * found.records[0].cd.standard_error);
+}
+
 TEST(TowingRecords, HoldTheTruthAsOftenAsTheySay) {
   const Truth truth{0.545, 0.0012, 10.44, 0.12};
   const double cd = truth.force / (0.5 * 997 * 0.06 * truth.speed * truth.speed);

@@ -103,6 +103,18 @@ def test_a_psd_of_a_run_is_that_of_its_file(examples, tmp_path):
             np.testing.assert_allclose(spectra[name].density, said[name + ".density"], rtol=1e-12)
 
 
+def test_what_is_no_record_no_result_and_no_name_is_refused_in_words(examples, tmp_path):
+    time = np.linspace(0, 10, 101)
+    with pytest.raises(ValueError, match=r'"x" has the shape \(101, 2\)'):
+        froude.psd({"time": time, "x": np.zeros((101, 2))})
+    with pytest.raises(ValueError, match='"x" has the shape .* complex128'):
+        froude.psd({"time": time, "x": np.exp(1j * time)})
+    with pytest.raises(ValueError, match="one result at least"):
+        froude.export([], tmp_path / "out.csv")
+    with pytest.raises(froude.InputError, match="cannot end in"):
+        froude.run(examples / "forced.toml").write(tmp_path / "run.csv")
+
+
 def test_a_sweep_is_kept_and_goes_on(tmp_path):
     (tmp_path / "scene.toml").write_text(SPRING + "[ask]\nmodes = {}\n")
     (tmp_path / "study.toml").write_text("""schema = 1

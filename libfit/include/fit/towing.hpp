@@ -32,6 +32,8 @@ void require_deviation(const char* of, double deviation, double mean);
 /// Deviations must be stated for all runs or for none.
 void require_stated_alike(const TowingRun& run, const TowingRun& first);
 
+/// F/(½ρU²DL), of one sample or a mean; noise of a sample may have turned its sign.
+double drag_coefficient(const Cylinder& cylinder, double speed, double force);
 /// C_D of one run, (F12). \throws hydro::InputError for a run or a cylinder that fit_towing() refuses
 TowingPoint towing_point(const Cylinder& cylinder, const TowingRun& run);
 

@@ -133,19 +133,32 @@ std::string loss_of(const Problem& problem, const Solution& found, double step) 
       at, 100 * std::min(1.0, most));
 }
 
-/// (S9) with the errors of both slopes (F105). `passed`: what filters leave of both sides.
-Coefficient gain_at(const hs::TransferEstimate& t, std::size_t k, const SlopeError& slope, double passed,
+/// What there is at one frequency: what filters leave of both sides, and the density of the waves over its highest.
+struct Heard {
+  double passed, waves;
+};
+
+/// (S9) with the errors of both slopes (F105).
+Coefficient gain_at(const hs::TransferEstimate& t, std::size_t k, const SlopeError& slope, Heard heard,
                     double confidence) {
   constexpr double least_passed = 0.5;  // at the edges of a band; beyond, what a segment leaks from within it is seen
+  constexpr double least_waves = 1e-3;  // a segment leaks that much beside its peak; noise of a gauge is seldom less
   const double gain = std::abs(t.h1[k]), error = gain * t.gain_relative_error[k];
   Coefficient out = with_parts("gain", gain, error, hs::student_t_quantile((1 + confidence) / 2, 2 * (t.averages - 1)),
                                0, confidence);
   count_slope(slope, gain, out);
   out.effective_samples = t.averages;
-  if (passed >= least_passed && t.coherence[k] >= t.coherence_threshold) return out;
+  const bool is_coherent = t.coherence[k] >= t.coherence_threshold;
+  if (heard.passed >= least_passed && heard.waves >= least_waves && is_coherent) return out;
   out.value.reset();
-  if (passed < least_passed) {
-    out.why_not = fmt::format("the filters of [prepare] leave {:.2g} of both channels there", passed);
+  if (heard.passed < least_passed) {
+    out.why_not = fmt::format("the filters of [prepare] leave {:.2g} of both channels there", heard.passed);
+    return out;
+  }
+  if (heard.waves < least_waves && is_coherent) {
+    out.why_not =
+        fmt::format("the waves have {:.2g} of their highest density there, which is what segments leak and gauges hear",
+                    heard.waves);
     return out;
   }
   out.why_not = fmt::format("its coherence is {:.2g}, and unrelated channels come to {:.2g}", t.coherence[k],
@@ -163,9 +176,11 @@ Response response_of(const Problem& problem, const Solution& so_far, std::size_t
   turn_phases(options.tank, static_cast<double>(later) * step, out.transfer);
   out.transfer.coherence_threshold = hs::coherence_threshold(out.transfer.averages, options.confidence);
   const SlopeError slope = slope_error_of(problem.elevation_slope, problem.response_slopes, i);
+  const double highest = so_far.waves.density[peak_of(so_far.waves)];
   for (std::size_t k = 0; k < out.transfer.h1.size(); ++k)
     out.gain.push_back(gain_at(out.transfer, k, slope,
-                               gain_of(options.prepare, step, 2 * std::numbers::pi * out.transfer.frequency_hz[k]),
+                               {gain_of(options.prepare, step, 2 * std::numbers::pi * out.transfer.frequency_hz[k]),
+                                so_far.waves.density[k] / highest},
                                options.confidence));
   return out;
 }

@@ -45,9 +45,20 @@ Stretch settled(const PreparedTow& tow, Stretch even) {
   return {even.from + std::max(*speed, *force), even.to};
 }
 
+/// Standard error of the mean over a rest of `duration_s` whose noise remembers for θ, e^{−t/θ}: the mean has the share
+/// r = (2θ/T)(1 − (θ/T)(1 − e^{−T/θ})) of its variance, and scatter about the mean is the rest of it. A short rest
+/// tells little of θ by itself, so that it is the steady part's, and one of less than ten θ little of its scatter,
+/// which is then no less than the steady part's; (F93).
+double error_of_rest(const SteadyMean& rest, const SteadyMean& towed, double duration_s, double theta_s) {
+  const double x = theta_s / duration_s, share = 2 * x * (1 - x * -std::expm1(-1 / x));
+  double deviation = rest.deviation / std::sqrt(1 - share);
+  if (10 * x > 1) deviation = std::max(deviation, towed.deviation);
+  return std::max(rest.error, deviation * std::sqrt(share));
+}
+
 /// Takes the force at rest off. Filters reach over the start of the motion, and a carriage shakes before it moves: what
 /// comes just before it is left out.
-void take_rest(const Tow& tow, PreparedTow& p) {
+void take_rest(const Tow& tow, Stretch steady, PreparedTow& p) {
   const double margin_s = std::max(1.0, p.filter_reach_s);
   const auto margin = static_cast<std::size_t>(margin_s / p.step);
   const std::size_t rest = tow.motion.from > margin ? tow.motion.from - margin : 0;
@@ -58,15 +69,21 @@ void take_rest(const Tow& tow, PreparedTow& p) {
             "to take the zero of the force from",
             static_cast<double>(tow.motion.from) * p.step, margin_s),
         {}, "name a run at rest, [data] zero = \"zero.csv\", or begin to record earlier");
-  const SteadyMean zero = steady_mean(std::span(p.force).first(rest));
+  const SteadyMean zero = steady_mean(std::span(p.force).first(rest)), towed = steady_mean(part_of(p.force, steady));
+  const double theta = p.step * static_cast<double>(steady.size()) / towed.effective_samples / 2,
+               error = error_of_rest(zero, towed, static_cast<double>(rest) * p.step, theta);
   for (double& f : p.force) f -= zero.value;
   for (ForceChannel& c : p.channels) {
     const double own = steady_mean(std::span(c.values).first(rest)).value;
     for (double& f : c.values) f -= own;
   }
-  p.zero_errors = {zero.error};
+  p.zero_errors = {error};
   p.steps.push_back(fmt::format("zero: {:.4g} N ± {:.2g} N taken off, the mean of the force at rest until {:.4g} s",
-                                zero.value, zero.error, p.time[rest - 1]));
+                                zero.value, error, p.time[rest - 1]));
+}
+
+void require_long(Stretch steady) {
+  hydro::require(steady.size() >= 64, "the window holds {} samples: a steady part needs 64 at least", steady.size());
 }
 
 /// Finds the steady part and takes the zero off.
@@ -76,7 +93,6 @@ Stretch steady_part(PreparedTow& p, const Options& options) {
   if (named) steady = span_of(p.time, options.prepare.window);
   if (!named || options.zero_at_rest) {
     const Tow tow = find_tow(p.speed, options.tolerance);
-    if (options.zero_at_rest) take_rest(tow, p);
     if (!named) {
       steady = settled(p, tow.even_speed);
       p.steps.push_back(fmt::format(
@@ -88,8 +104,10 @@ Stretch steady_part(PreparedTow& p, const Options& options) {
         p.cautions.push_back(fmt::format("the carriage moves again as fast after {:.4g} s: only the first tow is taken",
                                          p.time[tow.motion.to - 1]));
     }
+    require_long(steady);
+    if (options.zero_at_rest) take_rest(tow, steady, p);
   }
-  hydro::require(steady.size() >= 64, "the window holds {} samples: a steady part needs 64 at least", steady.size());
+  require_long(steady);
   return steady;
 }
 
@@ -157,7 +175,7 @@ RecordedTow recorded(const Problem& problem, const Record& record) {
         {}, fmt::format("write \"-{}\" among the channels to turn it", p.channels[0].name));
   std::vector<double> samples;
   for (std::size_t i = out.steady.from; i < out.steady.to; ++i)
-    samples.push_back(towing_point(problem.cylinder, {p.speed[i], 0, p.force[i], 0}).cd);
+    samples.push_back(drag_coefficient(problem.cylinder, p.speed[i], p.force[i]));
   out.samples = steady_mean(samples);
   out.box = box_of(std::move(samples));
   add_coefficient(problem, out);

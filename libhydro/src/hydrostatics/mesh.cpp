@@ -116,6 +116,7 @@ Hull::Hull(TriangleMesh mesh) : mesh_(std::move(mesh)) {
               mesh_.source, v + 1, mesh_.vertices.size());
   measure();
   check_edges();
+  check_doubled();
   check_parts();
 }
 
@@ -140,6 +141,20 @@ void Hull::measure() {
     area_ += area;
     // Thinner than round-off of the coordinates: no direction of its own.
     if (area <= 1e-14 * diagonal_ * diagonal_) ++slivers_;
+  }
+}
+
+/// A face twice would displace its water twice, and all edges would still agree.
+void Hull::check_doubled() const {
+  std::map<std::array<int, 3>, std::size_t> first;
+  for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
+    std::array<int, 3> corners = mesh_.triangles[t];
+    std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+    const auto [there, is_new] = first.emplace(corners, t);
+    if (!is_new)
+      throw InputError(fmt::format("{}: triangles {} and {} have the same corners, from {} on: a face is there twice",
+                                   mesh_.source, there->second + 1, t + 1, text(mesh_.vertices[at(corners[0])])),
+                       {}, "remove doubled faces in the program that made the mesh");
   }
 }
 

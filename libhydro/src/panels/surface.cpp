@@ -18,6 +18,16 @@ using Eigen::Index;
 using Eigen::Vector3d;
 using std::numbers::pi;
 
+/// Half of what a hull adds is in it at its side, so that Green's theorem tells neither side there.
+bool is_on(const std::vector<std::array<Eigen::Vector2d, 2>>& waterline, const Eigen::Vector2d& p) {
+  constexpr double rounding = 1e-6;  // of a piece of the waterline
+  return std::any_of(waterline.begin(), waterline.end(), [&](const auto& piece) {
+    const Eigen::Vector2d way = piece[1] - piece[0];
+    const double along = std::clamp((p - piece[0]).dot(way) / way.squaredNorm(), 0.0, 1.0);
+    return (p - piece[0] - along * way).norm() <= rounding * way.norm();
+  });
+}
+
 }  // namespace
 
 std::vector<bool> outside(const PanelMesh& mesh, const Eigen::MatrixX2d& point) {
@@ -30,7 +40,8 @@ std::vector<bool> outside(const PanelMesh& mesh, const Eigen::MatrixX2d& point) 
         if (a.z() == 0 && b.z() == 0) waterline.push_back({a.head<2>(), b.head<2>()});
       }
   std::vector<bool> out;
-  for (Index p = 0; p < point.rows(); ++p) out.push_back(!is_inside(waterline, point.row(p)));
+  for (Index p = 0; p < point.rows(); ++p)
+    out.push_back(!is_inside(waterline, point.row(p)) && !is_on(waterline, point.row(p)));
   return out;
 }
 

@@ -34,7 +34,7 @@ std::array<std::complex<double>, Count> by_greens_theorem(const PanelMesh& mesh,
   return sum;
 }
 
-/// True for each point that is outside of the waterlines of all hulls of the mesh.
+/// True for each point that is outside of the waterlines of all hulls of the mesh, and not on one.
 std::vector<bool> outside(const PanelMesh& mesh, const Eigen::MatrixX2d& point);
 
 /// By Green's theorem over all panels, from potentials that are solved for here. Points that are not outside() are not

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numbers>
 #include <numeric>
 
 #include "hydro/base/error.hpp"
@@ -65,6 +66,16 @@ std::vector<SingleWave> single_waves(std::span<const double> time_s, std::span<c
     now.trough = std::min(now.trough, x);
   }
   return waves;
+}
+
+// A sample is off the crest by up to half a step either way: the mean of the cosine over that.
+double missed_of_crests(std::span<const double> time_s, std::span<const double> values) {
+  const std::vector<SingleWave> waves = single_waves(time_s, values);
+  if (waves.size() < 3) return 0;
+  const double all = waves.back().start_s + waves.back().period - waves.front().start_s,
+               step = (time_s.back() - time_s.front()) / static_cast<double>(time_s.size() - 1),
+               half = std::numbers::pi * step * static_cast<double>(waves.size()) / all;
+  return 1 - std::sin(half) / half;
 }
 
 WaveStatistics wave_statistics(std::span<const SingleWave> waves) {

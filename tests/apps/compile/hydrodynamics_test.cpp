@@ -66,7 +66,7 @@ TEST(Hydrodynamics, ActWithTheVolumeAndCentreThatTheSceneStates) {
   const double buoyancy = 1000 * 9.81 * 260;
   EXPECT_NEAR(prepared.hydrostatics[0].lift, buoyancy - 200e3 * 9.81, 1e-6 * buoyancy);
   // (r_b − r_g) × (0, 0, ρgV) = ρgV (r_y, −r_x, 0) with r_b − r_g = (−0.4, 0.2, 0.2) m
-  const Eigen::Vector3d expected = buoyancy * Eigen::Vector3d(0.2, 0.4, 0);
+  const Eigen::Vector2d expected = buoyancy * Eigen::Vector2d(0.2, 0.4);
   EXPECT_LT((prepared.hydrostatics[0].moment - expected).norm(), 1e-6 * buoyancy);
 }
 
@@ -77,6 +77,34 @@ TEST(Hydrodynamics, RefuseAVolumeThatContradictsTheFile) {
   text.replace(text.find("260"), 3, "300");
   EXPECT_THAT([&] { compile::prepare(froude_test::parse(text)); },
               ThrowsMessage<InputError>(HasSubstr("leave out displaced_volume")));
+}
+
+// A gravity centre that is not above that of buoyancy makes a moment, which a matrix about a balance leaves out.
+TEST(Hydrodynamics, TellOfABodyThatIsOutOfBalance) {
+  const auto notes_of = [](const std::string& centre) {
+    return compile::prepare(froude_test::parse(R"(schema = 1
+[water]
+density = "1000 kg/m^3"
+depth = "60 m"
+[[body]]
+name = "buoy"
+mass = "603.2 t"
+centre_of_gravity = ")" + centre + R"("
+radii_of_gyration = "(4, 4, 3) m"
+[body.hydrodynamics]
+hydrostatics = true
+[body.hydrodynamics.cylinders]
+at = "(0, 0, 0) m"
+diameter = "8 m"
+draught = "12 m"
+frequencies = "0.5 rad/s .. 0.9 rad/s, 5 values"
+[ask]
+modes = { longest = "100 s" }
+)"))
+        .notes;
+  };
+  EXPECT_THAT(notes_of("(0.5, 0, -8) m"), testing::Contains(HasSubstr("0.5 m beside the vertical")));
+  EXPECT_THAT(notes_of("(0, 0, -8) m"), testing::Not(testing::Contains(HasSubstr("beside the vertical"))));
 }
 
 /// A module of the pontoons' coefficients at x, with what its hydrodynamics say.

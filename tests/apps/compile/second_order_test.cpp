@@ -18,6 +18,7 @@ namespace {
 
 using namespace froude;
 using dynamics::Vector6;
+using hydro::InputError;
 using hydro::waves::Component;
 using testing::AllOf, testing::HasSubstr, testing::ThrowsMessage;
 using Complex = std::complex<double>;
@@ -228,6 +229,48 @@ TEST(SecondOrder, RefusesWhatItsFilesDoNotTell) {
   EXPECT_THAT(refused(regular, "0 deg", full + "file = \"pontoon1.1\"\n"),
               ThrowsMessage<Error>(HasSubstr("no file of second-order loads")));
   EXPECT_THAT(refused(regular, "0 deg", full + file + "body = 2\n"), ThrowsMessage<Error>(HasSubstr("body 2")));
+}
+
+// Loads of both orders of two waves must be one real load.
+TEST(SecondOrder, RefusesHalvesThatDoNotAgree) {
+  const std::string path = file_of(difference, "halves.12d", {0});
+  const auto add = [&](double sign) {
+    const Complex v = difference(0, omega[0], 0, omega[1], 0);
+    std::ofstream(path, std::ios::app) << fmt::format("{:.16g} {:.16g} 0 0 1 {:.16g} {:.16g} {:.16g} {:.16g}\n",
+                                                      2 * pi / omega[1], 2 * pi / omega[0], std::abs(v),
+                                                      sign * std::arg(v) / degree, v.real(), sign * v.imag());
+  };
+  const std::string loads = fmt::format("method = \"full\"\nfile = \"{}\"\n", path);
+  add(-1);
+  EXPECT_NO_THROW(load(scene_of(sea, "0 deg", loads), 3));
+  file_of(difference, "halves.12d", {0});
+  add(1);
+  EXPECT_THAT([&] { load(scene_of(sea, "0 deg", loads), 3); },
+              ThrowsMessage<InputError>(AllOf(HasSubstr("same two waves"), HasSubstr("the conjugate of T(1; 2)"))));
+}
+
+// From 330 to 360 degrees the loads go on to those of 0.
+TEST(SecondOrder, GoesRoundTheCircle) {
+  const auto path = support::scratch_folder() / "round.9";
+  std::ofstream out(path);
+  for (const double w : omega)
+    for (int heading = 0; heading < 360; heading += 30)
+      for (int mode = 0; mode < 6; ++mode)
+        out << fmt::format("{:.16g} {} {} {} 1 0 {:.16g} 0\n", 2 * pi / w, heading, heading, mode + 1,
+                           (mode + 1) * (2 + std::cos(heading * degree)));
+  out.close();
+  const auto at = [&](const std::string& heading) {
+    return load(scene_of(regular, heading, fmt::format("method = \"mean\"\nfile = \"{}\"\n", path.string())), 3);
+  };
+  const Vector6 between = at("345 deg"), expected = (at("330 deg") + at("0 deg")) / 2;
+  EXPECT_LT((between - expected).norm(), 1e-9 * expected.norm());  // straight between the two
+  EXPECT_LT((at("-15 deg") - between).norm(), 1e-9 * expected.norm());
+}
+
+TEST(SecondOrder, IsRefusedInACurrent) {
+  scene::Scene scene = scene_of(regular, "0 deg", fmt::format("method = \"mean\"\nfile = \"{}\"\n", drift_file("c.9")));
+  scene.current_place = scene.waves->place;
+  EXPECT_THAT([&] { load(scene, 3); }, ThrowsMessage<InputError>(HasSubstr("those of still water")));
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include "dynamics/force/connector.hpp"
 #include "dynamics/force/drag.hpp"
 #include "dynamics/force/gravity.hpp"
+#include "dynamics/force/hydrostatics.hpp"
 #include "dynamics/force/restoring.hpp"
 #include "dynamics/force/switched_connector.hpp"
 #include "dynamics/force/wave_loads.hpp"
@@ -33,6 +34,11 @@ TEST(ForceLaws, HoldForRestoring) {
                                         {{0, random_spd(1), random_spd(2)},
                                          {1, random_spd(3), Matrix6::Zero(), 700, Eigen::Vector3d(300, -200, 100)}}),
                           bodies);
+}
+
+TEST(ForceLaws, HoldForHydrostatics) {
+  const Eigen::Matrix3d C = random_spd(4).topLeftCorner<3, 3>(), D = random_spd(5).topLeftCorner<3, 3>();
+  laws::expect_force_laws(HydrostaticsKind(bodies, {{0, C}, {1, D, 700, Eigen::Vector2d(300, -200)}}), bodies);
 }
 
 TEST(ForceLaws, HoldForWeight) {

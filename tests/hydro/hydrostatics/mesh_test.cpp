@@ -140,6 +140,14 @@ TEST(MeshFiles, WithOneFaceTurnedRoundOrDoubledAreRefused) {
   EXPECT_THAT([&] { Hull{doubled}; }, ThrowsMessage<InputError>(HasSubstr("3 triangles meet at the edge")));
 }
 
+// All edges of a mesh that is there twice agree, but it would displace its water twice.
+TEST(MeshFiles, WithAllFacesTwiceAreRefused) {
+  TriangleMesh box = box_mesh({-1, -1, -1}, {1, 1, 1});
+  const auto once = box.triangles;
+  for (const auto& t : once) box.triangles.push_back({t[1], t[2], t[0]});  // the same, from another corner on
+  EXPECT_THAT([&] { Hull{box}; }, ThrowsMessage<InputError>(HasSubstr("a face is there twice")));
+}
+
 TEST(MeshFiles, MayHoldSliversAndLoseCollapsedTriangles) {
   // A vertex in the middle of an edge of one face only; a sliver joins it to the other face.
   TriangleMesh box = box_mesh({-1, -1, -1}, {1, 1, 1});

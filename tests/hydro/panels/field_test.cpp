@@ -106,5 +106,16 @@ TEST(PanelField, TellsNothingInsideAWaterlineOrACircleOfPartialWaves) {
               testing::ElementsAre(false, false, true));
 }
 
+// At a side Green's theorem gives half of what is there, at a corner another share: both sides are left out alike.
+TEST(PanelField, TellsNothingOnAHullsSide) {
+  FieldQuestion question = about_origin(1, 1);
+  question.point.resize(6, 2);
+  question.point << 0.6, 0.1, -0.6, 0.1, 0.1, 0.4, 0.1, -0.4, 0.6, 0.4, 0.6001, 0.1;
+  EXPECT_THAT(
+      wave_field({body("box", box_mesh({-0.6, -0.4, -0.5}, {0.6, 0.4, 0}, {6, 4, 3}), {0, 0, 0})}, tank, question)
+          .known,
+      testing::ElementsAre(false, false, false, false, false, true));
+}
+
 }  // namespace
 }  // namespace hydro::panels::field_test

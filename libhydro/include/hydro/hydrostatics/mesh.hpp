@@ -82,6 +82,7 @@ class Hull {
 
  private:
   void measure();
+  void check_doubled() const;
   void check_edges();
   void check_parts();
 

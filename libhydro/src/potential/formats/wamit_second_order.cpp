@@ -65,6 +65,7 @@ class SecondOrderReading {
   }
 
   QuadraticTransfer made() {
+    require_equal_halves();
     complete_halves();
     QuadraticTransfer out{.kind = layout_.kind, .omega = omega_, .heading = {}, .of_headings = {}, .notes = {}};
     for (const double degrees : degrees_) out.heading.push_back(Angle::from_degrees(degrees).radians());
@@ -119,6 +120,37 @@ class SecondOrderReading {
                         std::complex<double>(row.value[layout_.modulus() + 2], row.value[layout_.modulus() + 3]);
   }
 
+  std::complex<double> mirrored(std::complex<double> T) const {
+    return layout_.kind == QuadraticTransfer::Kind::sum ? T : std::conj(T);
+  }
+
+  /// Where T(1; 2) and T(2; 1) are both given they say the same, or the load would not be one of two waves.
+  void require_equal_halves() const {
+    constexpr double apart = 0.05;  // of the largest of the mode: programs print halves that differ by their own error
+    const bool full = layout_.periods == 2;
+    for (std::size_t h1 = 0; h1 < degrees_.size(); ++h1)
+      for (std::size_t h2 = 0; h2 < degrees_.size(); ++h2)
+        for (std::size_t mode = 0; mode < 6; ++mode) {
+          const Given &one = given_[pair(h1, h2)][mode], &other = given_[pair(h2, h1)][mode];
+          if (one.line.size() == 0 || other.line.size() == 0) continue;
+          const double largest = std::max(one.value.cwiseAbs().maxCoeff(), other.value.cwiseAbs().maxCoeff());
+          for (Eigen::Index k = 0; k < one.line.rows(); ++k)
+            for (Eigen::Index l = 0; l < one.line.cols(); ++l) {
+              const Eigen::Index row = full ? l : k, column = full ? k : l;
+              if (one.line(k, l) == 0 || other.line(row, column) == 0) continue;
+              if (std::abs(one.value(k, l) - mirrored(other.value(row, column))) <= apart * largest) continue;
+              throw InputError(
+                  one.line(k, l) == other.line(row, column)
+                      ? fmt::format("the load of a wave with itself has an imaginary part, in line {}", one.line(k, l))
+                      : fmt::format("lines {} and {} are of the same two waves and do not agree: T(2; 1) is {}T(1; 2)",
+                                    one.line(k, l), other.line(row, column),
+                                    layout_.kind == QuadraticTransfer::Kind::sum ? "" : "the conjugate of "),
+                  {.file = table_.path().string(), .line = one.line(k, l)},
+                  "look at the signs of the imaginary parts, or leave one half out");
+            }
+        }
+  }
+
   /// T(2; 1) from T(1; 2) where one of them is given.
   void complete_halves() {
     const bool full = layout_.periods == 2;
@@ -136,8 +168,7 @@ class SecondOrderReading {
               int& line = full ? to.line(l, k) : to.line(k, l);
               if (from.line(k, l) == 0 || line != 0) continue;
               line = from.line(k, l);
-              (full ? to.value(l, k) : to.value(k, l)) =
-                  layout_.kind == QuadraticTransfer::Kind::sum ? from.value(k, l) : std::conj(from.value(k, l));
+              (full ? to.value(l, k) : to.value(k, l)) = mirrored(from.value(k, l));
             }
         }
   }
