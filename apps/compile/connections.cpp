@@ -86,9 +86,7 @@ void add_joint(const scene::Joint& j, Prepared& out) {
 dynamics::Restoring mooring(const Scene& scene, dynamics::Restoring m) {
   for (int mode = 0; mode < 6; ++mode)
     m.told[static_cast<std::size_t>(mode)] = !m.stiffness.row(mode).isZero() || !m.damping.row(mode).isZero();
-  const Matrix6 T = dynamics::shift_from_centre(-scene.bodies[static_cast<std::size_t>(m.body)].centre_of_gravity);
-  m.stiffness = T.transpose() * m.stiffness * T;
-  m.damping = T.transpose() * m.damping * T;
+  m.point = -scene.bodies[static_cast<std::size_t>(m.body)].centre_of_gravity;  // it acts at the body's origin
   return m;
 }
 

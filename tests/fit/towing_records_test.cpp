@@ -106,7 +106,7 @@ fit::RawTow noisy(double cd, double memory_s, double rest_s, std::uint64_t seed)
   return out;
 }
 
-// Few samples of a short rest do not know how long their noise remembers; the steady part does.
+// Few samples of a short rest do not know the correlation time of their noise; the steady part does.
 TEST(TowingRecords, CountTheMemoryOfTheNoiseInAShortRest) {
   constexpr double cd = 1.1;
   int held = 0;

@@ -8,9 +8,36 @@
 namespace dynamics {
 namespace {
 
-/// ∂load/∂(displacement and small global rotation) in a state that is displaced by `d`.
-Matrix6 by_displacement(const Restoring& e, const Vector6& d) {
-  const Eigen::Vector3d phi = d.tail<3>(), m = (e.stiffness * d).tail<3>() - e.moment;
+using Eigen::Vector3d;
+
+/// A load at a point, or how it varies, one a column, seen from `arm` before it.
+template <int columns>
+Eigen::Matrix<double, 6, columns> seen_from(Eigen::Matrix<double, 6, columns> load, const Vector3d& arm) {
+  load.template bottomRows<3>() += cross_matrix(arm) * load.template topRows<3>();
+  return load;
+}
+
+/// Where the point of an element is, and what the element does there.
+struct AtPoint {
+  Vector3d arm;  ///< from the centre of gravity, global
+  Vector6 displacement, velocity;
+  Vector6 load;  ///< about the point
+
+  AtPoint(const Restoring& e, const RestoringKind::Held& held, const State& state) {
+    const Pose& pose = state.pose[static_cast<std::size_t>(e.body)];
+    arm = pose.attitude * e.point;
+    displacement << pose.centre + arm - held.rest, rotation_log(pose.attitude);
+    velocity = state.twist(e.body);
+    velocity.head<3>() += Vector3d(velocity.tail<3>()).cross(arm);
+    load = -e.stiffness * displacement;
+    load.tail<3>() = left_jacobian_inverse(displacement.tail<3>()).transpose() * Vector3d(load.tail<3>());
+    load -= e.damping * velocity;
+  }
+};
+
+/// ∂load/∂(displacement of the point and small global rotation), both about the point, without damping.
+Matrix6 stiffness_at(const Restoring& e, const Vector6& d) {
+  const Vector3d phi = d.tail<3>(), m = (e.stiffness * d).tail<3>();
   Matrix6 G = Matrix6::Identity();
   G.bottomRightCorner<3, 3>() = left_jacobian_inverse(phi);
   Matrix6 K = -G.transpose() * e.stiffness * G;
@@ -18,45 +45,54 @@ Matrix6 by_displacement(const Restoring& e, const Vector6& d) {
   return K;
 }
 
-/// A load about the centre of gravity, or how it varies, one a column, seen from the body's origin at −`arm`.
-template <int columns>
-Eigen::Matrix<double, 6, columns> about_origin(Eigen::Matrix<double, 6, columns> load, const Eigen::Vector3d& arm) {
-  load.template bottomRows<3>() += cross_matrix(arm) * load.template topRows<3>();
-  return load;
+/// Displacement or velocity of the point from that of the centre of gravity, for small turns.
+Matrix6 to_point(const Vector3d& arm) {
+  Matrix6 out = Matrix6::Identity();
+  out.topRightCorner<3, 3>() = -cross_matrix(arm);
+  return out;
+}
+
+/// ∂load/∂(displacement of the centre of gravity and small global rotation), about it: the arm turns with the body, and
+/// with it the point's velocity.
+Matrix6 by_displacement(const Restoring& e, const AtPoint& at) {
+  Matrix6 velocity = Matrix6::Zero();  // of the point, by the turn of its arm
+  velocity.topRightCorner<3, 3>() = -cross_matrix(at.velocity.tail<3>()) * cross_matrix(at.arm);
+  Matrix6 K = seen_from<6>(stiffness_at(e, at.displacement) * to_point(at.arm) - e.damping * velocity, at.arm);
+  K.bottomRightCorner<3, 3>() += cross_matrix(at.load.head<3>()) * cross_matrix(at.arm);
+  return K;
+}
+
+Matrix6 by_velocity(const Restoring& e, const AtPoint& at) {
+  return seen_from<6>(-e.damping * to_point(at.arm), at.arm);
+}
+
+/// The arm from the body's origin to its centre of gravity.
+Vector3d to_centre(const Restoring& e, const RestoringKind::Held& held, const State& state) {
+  return state.pose[static_cast<std::size_t>(e.body)].attitude * held.centre;
 }
 
 Vector6 load_about_origin(const Restoring& e, const RestoringKind::Held& held, const State& state) {
-  const Pose& pose = state.pose[static_cast<std::size_t>(e.body)];
-  return about_origin<1>(restoring_load(e, pose.displacement(held.rest_centre), state.twist(e.body)),
-                         pose.attitude * held.centre);
+  const AtPoint at(e, held, state);
+  return seen_from<1>(at.load, to_centre(e, held, state) + at.arm);
 }
 
 /// The arm turns with the body: δ(r × F) = r × δF + F × (r × θ).
 Variation origin_variation(const Restoring& e, const RestoringKind::Held& held, const State& still, int mode) {
-  const Pose& pose = still.pose[static_cast<std::size_t>(e.body)];
-  const Vector6 d = pose.displacement(held.rest_centre), load = restoring_load(e, d, Vector6::Zero());
-  const Eigen::Vector3d arm = pose.attitude * held.centre;
-  Matrix6 by_q = about_origin<6>(by_displacement(e, d), arm);
-  by_q.bottomRightCorner<3, 3>() += cross_matrix(load.head<3>()) * cross_matrix(arm);
-  const Matrix6 by_v = about_origin<6>(-e.damping, arm);
+  const AtPoint at(e, held, still);
+  const Vector3d arm = to_centre(e, held, still);
+  Matrix6 by_q = seen_from<6>(by_displacement(e, at), arm);
+  by_q.bottomRightCorner<3, 3>() += cross_matrix(at.load.head<3>()) * cross_matrix(arm);
+  const Matrix6 by_v = seen_from<6>(by_velocity(e, at), arm);
   return {.parts = {{.body = e.body, .by_motion = by_q.row(mode), .by_velocity = by_v.row(mode)}}};
 }
 
 }  // namespace
 
-Vector6 restoring_load(const Restoring& element, const Vector6& displacement, const Vector6& velocity) {
-  Vector6 generalised = element.stiffness * displacement;
-  generalised.tail<3>() -= element.moment;
-  const Eigen::Vector3d phi = displacement.tail<3>(), m = generalised.tail<3>();
-  generalised.tail<3>() = left_jacobian_inverse(phi).transpose() * m;
-  return -generalised - element.damping * velocity;
-}
-
 RestoringKind::RestoringKind(std::string effect, const std::vector<RigidBody>& bodies, std::vector<Restoring> elements)
     : effect_(std::move(effect)), elements_(std::move(elements)) {
   for (const Restoring& e : elements_) {
     const RigidBody& body = bodies[static_cast<std::size_t>(e.body)];
-    held_.push_back({body.name(), body.rest_centre(), body.properties().centre_of_gravity.xyz});
+    held_.push_back({body.name(), body.rest_centre() + e.point, body.properties().centre_of_gravity.xyz});
   }
 }
 
@@ -83,25 +119,22 @@ std::vector<Signal> RestoringKind::signals() const {
 
 void RestoringKind::add_load(const Instant& now, LoadSink& out) const {
   for (std::size_t i = 0; i < elements_.size(); ++i) {
-    const Restoring& e = elements_[i];
-    const Pose& pose = now.state.pose[static_cast<std::size_t>(e.body)];
-    Vector6 load = restoring_load(e, pose.displacement(held_[i].rest_centre), now.state.twist(e.body));
-    load.z() += e.lift;
-    out.add(e.body, load);
+    const AtPoint at(elements_[i], held_[i], now.state);
+    out.add(elements_[i].body, seen_from<1>(at.load, at.arm));
   }
 }
 
 void RestoringKind::add_jacobian(const Instant& now, JacobianSink& out) const {
   for (std::size_t i = 0; i < elements_.size(); ++i) {
     const Restoring& e = elements_[i];
-    const Vector6 d = now.state.pose[static_cast<std::size_t>(e.body)].displacement(held_[i].rest_centre);
-    out.add(e.body, e.body, by_displacement(e, d), -e.damping);
+    const AtPoint at(e, held_[i], now.state);
+    out.add(e.body, e.body, by_displacement(e, at), by_velocity(e, at));
   }
 }
 
 std::string RestoringKind::breaks_off(const State& before, const State& after) const {
   for (const Restoring& e : elements_) {
-    if (e.stiffness.rightCols<3>().isZero(0) && e.moment.isZero(0)) continue;
+    if (e.stiffness.rightCols<3>().isZero(0)) continue;
     const auto body = static_cast<std::size_t>(e.body);
     if (jumps(rotation_log(before.pose[body].attitude), rotation_log(after.pose[body].attitude)))
       return fmt::format("a body of \"{}\" has turned by more than half a turn from rest, where that law ends",
@@ -114,10 +147,9 @@ EnergyFlow RestoringKind::energy(const Instant& now) const {
   EnergyFlow flow;
   for (std::size_t i = 0; i < elements_.size(); ++i) {
     const Restoring& e = elements_[i];
-    const Vector6 d = now.state.pose[static_cast<std::size_t>(e.body)].displacement(held_[i].rest_centre);
-    const Vector6 v = now.state.twist(e.body);
-    flow.stored += 0.5 * d.dot(e.stiffness * d) - e.lift * d.z() - e.moment.dot(d.tail<3>());
-    flow.dissipated += v.dot(e.damping * v);
+    const AtPoint at(e, held_[i], now.state);
+    flow.stored += 0.5 * at.displacement.dot(e.stiffness * at.displacement);
+    flow.dissipated += at.velocity.dot(e.damping * at.velocity);
   }
   return flow;
 }

@@ -45,10 +45,10 @@ Stretch settled(const PreparedTow& tow, Stretch even) {
   return {even.from + std::max(*speed, *force), even.to};
 }
 
-/// Standard error of the mean over a rest of `duration_s` whose noise remembers for θ, e^{−t/θ}: the mean has the share
-/// r = (2θ/T)(1 − (θ/T)(1 − e^{−T/θ})) of its variance, and scatter about the mean is the rest of it. A short rest
-/// tells little of θ by itself, so that it is the steady part's, and one of less than ten θ little of its scatter,
-/// which is then no less than the steady part's; (F93).
+/// Standard error of the mean over a rest of `duration_s` whose noise has the correlation time θ, e^{−t/θ}: the mean
+/// has the share r = (2θ/T)(1 − (θ/T)(1 − e^{−T/θ})) of its variance, and scatter about the mean is the rest of it. A
+/// short rest tells little of θ by itself, so that it is the steady part's, and one of less than ten θ little of its
+/// scatter, which is then no less than the steady part's; (F93).
 double error_of_rest(const SteadyMean& rest, const SteadyMean& towed, double duration_s, double theta_s) {
   const double x = theta_s / duration_s, share = 2 * x * (1 - x * -std::expm1(-1 / x));
   double deviation = rest.deviation / std::sqrt(1 - share);

@@ -327,7 +327,7 @@ std::vector<Example> of_answers() {
                ", drag = { height = \"1 m\" } }\nmodes = {}\nstability = { periods = \"4 s .. 6 s, 2 values\", heights "
                "= \"1 m .. 2 m, 2 values\", branch = [{ height = \"1 m\" }, { period = \"5 s\" }] "
                "}\nfield = { period = \"5 s\", x = \"0 m .. 9 m, 2 values\", y = \"0 m .. 9 m, 2 values\", "
-               "pressure = true }\n"
+               "pressure = true, body_drift = true }\n"
                "waves = { duration = \"2 s\", every = \"0.5 s\" }\nuncompressed = true\n"
                "[solve]\naccept_error = true\nstep = \"0.05 s\"\nintegrator = { name = \"generalized_alpha\" }\n",
            {"hydrostatics", "excitation", "drag"}}};

@@ -32,7 +32,7 @@ Matrix6 random_spd(std::uint64_t seed) {
 TEST(ForceLaws, HoldForRestoring) {
   laws::expect_force_laws(RestoringKind("mooring", bodies,
                                         {{0, random_spd(1), random_spd(2)},
-                                         {1, random_spd(3), Matrix6::Zero(), 700, Eigen::Vector3d(300, -200, 100)}}),
+                                         {1, random_spd(3), random_spd(6), Eigen::Vector3d(0.7, -0.4, 1.1)}}),
                           bodies);
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-/// \file  Linear stiffness and damping of single bodies about their rest positions: hydrostatics, moorings as a matrix.
+/// \file  Linear stiffness and damping of single bodies about their rest positions: moorings as a matrix.
 #include <array>
 #include <string>
 
@@ -7,27 +7,22 @@
 
 namespace dynamics {
 
-/// F = −Gᵀ C δ − D v with the displacement δ = (x − x₀, φ) and δ̇ = G v (D2): derived from the potential ½ δᵀCδ, so it
-/// conserves energy at any rotation below a full turn and is C δ for small ones.
+/// F = −Gᵀ C δ − D v with the displacement δ = (p − p₀, φ) of a point of the body and δ̇ = G v (D2): derived from the
+/// potential ½ δᵀCδ, so it conserves energy at any rotation below a full turn and is C δ for small ones. Forces act at
+/// that point.
 struct Restoring {
   int body;
-  Matrix6 stiffness = Matrix6::Zero();  ///< C about the centre of gravity, symmetric
-  Matrix6 damping = Matrix6::Zero();    ///< D about the centre of gravity
-  double lift = 0;  ///< N, a constant force upwards at the centre of gravity: buoyancy less weight of a body that
-                    ///< others hold at its draught
-  Eigen::Vector3d moment = Eigen::Vector3d::Zero();  ///< N m at rest about the centre of gravity, of a constant force
-                                                     ///< that acts beside it; its potential is −moment·φ
+  Matrix6 stiffness = Matrix6::Zero();              ///< C about the point, symmetric
+  Matrix6 damping = Matrix6::Zero();                ///< D about the point
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< from the centre of gravity, body axes, m
   /// Where the load is a signal of a mooring's: its name, and the modes that it tells.
   std::string name = {};
   std::array<bool, 6> told = {};
 };
 
-/// Load of one element. Rotations: |φ| < π.
-Vector6 restoring_load(const Restoring& element, const Vector6& displacement, const Vector6& velocity);
-
 class RestoringKind final : public ForceKind {
  public:
-  /// `effect`: "hydrostatics" or "mooring".
+  /// `effect`: "mooring", or what else is such a matrix.
   RestoringKind(std::string effect, const std::vector<RigidBody>& bodies, std::vector<Restoring> elements);
 
   std::string effect() const override { return effect_; }
@@ -44,8 +39,8 @@ class RestoringKind final : public ForceKind {
   /// What an element needs of its body.
   struct Held {
     std::string name;
-    Eigen::Vector3d rest_centre;  ///< of gravity, global, m
-    Eigen::Vector3d centre;       ///< of gravity from the origin, body axes, m
+    Eigen::Vector3d rest;    ///< of the point, global, m
+    Eigen::Vector3d centre;  ///< of gravity from the origin, body axes, m
   };
 
  private:
