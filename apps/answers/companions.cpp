@@ -1,5 +1,7 @@
 #include "answers/companions.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -289,6 +291,7 @@ void Companions::refine_pieces(int times) {
   foreseen_.clear();
   followed_.clear();
   neighbour_.reset();
+  pairs_.clear();
 }
 
 double Companions::moved_by() const { return std::max(1e-9, 10 * scene::newton_tolerance(scene_)); }
@@ -303,6 +306,42 @@ const Run& Companions::neighbour() {
     require_uninterrupted();
   }
   return *neighbour_;
+}
+
+Run Companions::quarters_of(int level, int quarters, bool disturbed,
+                            const std::function<void(double)>& progress) const {
+  std::size_t stride = 1;
+  scene::Scene scene = scene_of(level, stride);
+  scene.run->duration = std::ceil(scene.run->duration / scene.run->every * quarters / 4 - 1e-9) * scene.run->every;
+  compile::TimeModel model = compile::time_model(scene, prepared_);
+  if (disturbed) disturb(moved_by(), model);
+  const std::string name = fmt::format("{}-quarters{}", disturbed ? "disturbed" : "undisturbed", quarters);
+  return run_model(scene, model, progress, nullptr, nullptr, kept(name, level));
+}
+
+/// Both take the same time, and are made beside each other where there is a thread for it.
+const Companions::Pair& Companions::pair(int level, int quarters) {
+  const auto known = pairs_.find(level);
+  if (known != pairs_.end() && known->second.quarters >= quarters) return known->second;
+  const auto disturbed = [&](const std::function<void(double)>& progress) {
+    return quarters_of(level, quarters, true, progress);
+  };
+  std::future<Run> beside;
+  if (threads_ > 1) beside = std::async(std::launch::async, disturbed, std::function<void(double)>());
+  Pair out{quarters_of(level, quarters, false, progress_), {}, quarters};
+  out.neighbour = beside.valid() ? beside.get() : disturbed(progress_);
+  require_uninterrupted();
+  return pairs_.insert_or_assign(level, std::move(out)).first->second;
+}
+
+int Companions::much_shorter() const {
+  constexpr int eighth = 3, most = 7;
+  if (!given_ || by_tolerance_) return -eighth;
+  scene::Scene own = scene_;
+  own.solve.step.reset();
+  own.run->duration = own.run->every;  // how many steps the whole run would take is not asked
+  const double levels = std::log2(step_ / compile::choose_step(own, prepared_).value) + eighth;
+  return -static_cast<int>(std::clamp(std::ceil(levels - 1e-9), 0.0, 1.0 * most));
 }
 
 std::vector<const Run*> Companions::completed() const {

@@ -121,9 +121,24 @@ class Refinement {
   }
   /// (E2)
   bool parts_neighbours(std::size_t signal) {
+    return grows_much(companions_.run(0), companions_.neighbour(), signal) && part_with_much_shorter_steps(signal);
+  }
+  bool grows_much(const Run& run, const Run& neighbour, std::size_t signal) const {
     constexpr double much = 1e3;                  // what parts in proportion to time comes to some 200
     const double least = companions_.moved_by();  // of the signal: about as far as the start is moved
-    return growth(companions_.run(0), companions_.neighbour(), signal, least * sizes_[signal].rms) > much;
+    return growth(run, neighbour, signal, least * sizes_[signal].rms) > much;
+  }
+  /// Steps that are too long part neighbours that the motion itself keeps together. Half as much again as the time in
+  /// which neighbours come as far off as is asked shows that with short ones.
+  bool part_with_much_shorter_steps(std::size_t signal) {
+    const int much_shorter = companions_.much_shorter();
+    if (much_shorter == 0) return true;
+    constexpr double more = 1.5;
+    const Beside run = companions_.beside(0), neighbour{&companions_.neighbour(), 1};
+    const double parted = agrees_until(run, neighbour, signal, scene_.accuracy * sizes_[signal].rms);
+    const double quarters = std::ceil(4 * more * parted / run.run->time.back());
+    const auto& pair = companions_.pair(much_shorter, static_cast<int>(std::clamp(quarters, 1.0, 4.0)));
+    return grows_much(pair.run, pair.neighbour, signal);
   }
   /// Up to where what runs with other steps differ by leaves the signal within the accuracy asked.
   Judged while_predictable(const Beside& fine, const Beside& coarse, const std::optional<Beside>& coarsest,
