@@ -30,6 +30,8 @@ class Companions {
   bool by_tolerance() const { return by_tolerance_; }
   /// True if the scene gives what is varied.
   bool given() const { return given_; }
+  /// s; that of level 0.
+  double first_step() const { return step_; }
   /// By which errors fall from one level to the next at most: that of the method's order.
   double largest_ratio() const;
   /// "runs at 2 and 4 times the step"

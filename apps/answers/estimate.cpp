@@ -29,7 +29,10 @@ struct Judged : Convergence {
 class Refinement {
  public:
   Refinement(const scene::Scene& scene, const compile::Prepared& prepared, Companions& companions)
-      : scene_(scene), companions_(companions), weight_(weight_of(prepared)) {}
+      : scene_(scene),
+        companions_(companions),
+        weight_(weight_of(prepared)),
+        finest_(finest_level(scene, companions)) {}
 
   Run settled() {
     int level = 0;
@@ -37,8 +40,17 @@ class Refinement {
       level = first_level();
       for (int finer = level;; level = finer) {
         companions_.foresee(level, 2);
-        if (!companions_.completes(level)) return without_estimate(level, "the run has stopped early");
-        if (!judge(level)) return without_estimate(level, "runs with other steps do not come to their end");
+        if (!companions_.completes(level)) {
+          if (!may_end_later_with_half(level)) return without_estimate(level, "the run has stopped early");
+          finer = level - 1;
+          continue;
+        }
+        if (!judge(level)) {
+          if (!may_refine() || level <= finest_)
+            return without_estimate(level, "runs with other steps do not come to their end");
+          finer = level - 1;
+          continue;
+        }
         look_at_water(level);
         look_at_cuts(level);
         if (const int times = times_as_many_pieces(level); times > 1) {
@@ -54,11 +66,31 @@ class Refinement {
   }
 
  private:
-  static constexpr int finest = -6;       // a 64th of what was chosen first, at a hundred times its cost
   static constexpr int most_at_once = 2;  // levels
   static constexpr double room = 0.8;     // of what is left for the step, which is aimed at
   static constexpr const char* twice_as_many = "a run with twice as many";
   static constexpr const char* own_pieces = "quadrature";
+  static constexpr const char* less_accuracy = "ask for less accuracy";
+
+  /// A 64th of the step that was chosen first, at a hundred times its cost; where that is little, further.
+  static int finest_level(const scene::Scene& scene, const Companions& companions) {
+    constexpr int always = -6, most = -12;
+    if (companions.by_tolerance()) return always;
+    constexpr double little = 1e6;  // steps of a body or a segment: seconds
+    double parts = static_cast<double>(scene.bodies.size());
+    for (const auto& line : scene.lines) parts += static_cast<double>(line.segments.size());
+    const double all = std::max(1.0, parts) * scene.run->duration / companions.first_step();
+    return std::clamp(-static_cast<int>(std::floor(std::log2(little / all))), most, always);
+  }
+  /// Half the step may bring a run to its end, unless the step before has ended it at the same time: then it is the
+  /// motion that cannot go on.
+  bool may_end_later_with_half(int level) {
+    const Run& run = companions_.run(level);
+    const double end = static_cast<double>(run.steps) * run.step;
+    const bool later = !stopped_at_ || std::abs(end - *stopped_at_) > 2 * run.step;
+    stopped_at_ = end;
+    return later && !companions_.given() && level > finest_;
+  }
 
   bool may_refuse() const { return !scene_.solve.accept_error; }
   bool may_refine() const { return !companions_.given() && may_refuse(); }
@@ -117,7 +149,7 @@ class Refinement {
   }
   /// True where a finer level would do, as far as errors go on to fall as they have.
   bool can_be_refined(int level, const Judged& j) const {
-    return !may_refine() || level - levels_needed(j, room * scene_.accuracy) >= finest;
+    return !may_refine() || level - levels_needed(j, room * scene_.accuracy) >= finest_;
   }
   /// (E2)
   bool parts_neighbours(std::size_t signal) {
@@ -216,7 +248,7 @@ class Refinement {
     if (worst <= share * scene_.accuracy) return 1;
     if (companions_.refined_pieces() >= most)
       refuse(level, signal, worst,
-             fmt::format("the pieces of members stand in the way: {} times as many do not do", most), "");
+             fmt::format("the pieces of members stand in the way: {} times as many do not do", most), less_accuracy);
     const double wanted = std::min(std::ceil(worst / (share * scene_.accuracy)), 1.0 * most_more);
     return static_cast<int>(std::bit_ceil(static_cast<unsigned>(wanted)));
   }
@@ -266,12 +298,12 @@ class Refinement {
     for (std::size_t i = 0; i < judged_.size(); ++i) {
       const Judged& j = judged_[i];
       const double left = left_for_step(i);
-      if (level > finest && is_lost_at_once(i)) out = std::min(out, level - 1);
+      if (level > finest_ && is_lost_at_once(i)) out = std::min(out, level - 1);
       if (j.error <= left) continue;
       if (left <= 0) refuse_memory(level, i);  // pieces are within half of what is asked
       if (!may_refine()) continue;
       const int needed = levels_needed(j, room * left);
-      if (level - needed < finest) refuse_step(level, i);
+      if (level - needed < finest_) refuse_step(level, i);
       out = std::min(out, level - std::clamp(needed, 1, most_at_once));
     }
     return out;
@@ -284,21 +316,27 @@ class Refinement {
                     "deviation or extreme; {}",
                     scene_.accuracy.value, companions_.at(level).signals[signal].name, error, why),
         scene_.accuracy.place,
-        remedy +
-            "ask for less accuracy, leave that signal out of `of`, or take the error by name: [solve] accept_error = "
-            "true");
+        remedy + ", leave that signal out of `of`, or take the error by name: [solve] accept_error = true");
   }
   [[noreturn]] void refuse_step(int level, std::size_t signal) const {
     const Judged& j = judged_[signal];
     const bool tolerance = companions_.by_tolerance();
     refuse(level, signal, j.error,
-           fmt::format("the {} stands in the way: errors fall by {:.2g} from one run to the next with {}",
-                       tolerance ? "tolerance" : "step", j.ratio, tolerance ? "a tenth of it" : "half of it"),
-           "");
+           fmt::format("the {} stands in the way: errors {} from one run to the next with {}",
+                       tolerance ? "tolerance" : "step",
+                       j.ratio > 0 ? fmt::format("fall by {:.2g}", j.ratio) : "are not seen to fall",
+                       tolerance ? "a tenth of it" : "half of it"),
+           tolerance ? "give a smaller tolerance" : shorter_step(level, j));
+  }
+  /// Less accuracy is begun with a longer step, from which it is as far to one that would do.
+  std::string shorter_step(int level, const Judged& j) const {
+    const double longest = companions_.at(level).step / std::exp2(levels_needed(j, room * scene_.accuracy));
+    return fmt::format("give a shorter step, [solve] step = \"{:.6g} s\"",
+                       scene_.run->every / std::ceil(scene_.run->every / longest));
   }
   [[noreturn]] void refuse_memory(int level, std::size_t signal) const {
     refuse(level, signal, scene_.accuracy - left_for_step(signal), "the memory of radiated waves stands in the way",
-           "give radiation a finer memory_tolerance, ");
+           fmt::format("give radiation a finer memory_tolerance, {}", less_accuracy));
   }
 
   Run told(int level) {
@@ -339,10 +377,12 @@ class Refinement {
   const scene::Scene& scene_;
   Companions& companions_;
   double weight_;  // N
+  int finest_;     // level
   std::vector<Sizes> sizes_;
   std::vector<Judged> judged_;
   std::vector<double> known_until_;  // s, one a signal: what the water leaves of it
   bool looked_ = false, looked_at_cuts_ = false;
+  std::optional<double> stopped_at_;  // s; where the last run did not come to its end
   std::vector<std::string> unseen_;
   std::vector<ErrorEstimate::Source> others_;
 };
