@@ -267,12 +267,17 @@ class Refinement {
     const double allowed = std::max(scene_.accuracy.value, more * first);
     return std::min(until, agrees_until(without, put_back, signal, allowed * sizes_[signal].rms));
   }
-  /// What of the accuracy is left for the step beside whatever else the program chooses.
+  /// What of the accuracy is left for the step beside whatever else the program chooses, and beside what the scene
+  /// gives, unless that leaves next to nothing: then no step could mend it.
   double left_for_step(std::size_t signal) const {
-    double out = scene_.accuracy;
+    constexpr double least = 0.25;
+    double out = scene_.accuracy, given = 0;
     for (const auto& source : others_)
-      if (!source.given) out -= source.of_signal[signal];
-    return out;
+      if (source.given)
+        given += source.of_signal[signal];
+      else
+        out -= source.of_signal[signal];
+    return out - given >= least * scene_.accuracy ? out - given : out;
   }
 
   /// By how many levels, as far as errors fall as they have. Steps that are too long to converge foretell nothing: then
