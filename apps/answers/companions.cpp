@@ -164,7 +164,19 @@ void Companions::require_uninterrupted() const {
   if (asks_to_end(interruption_)) throw Interrupted{};
 }
 
+/// Longer steps that a scene may not have, such as those that miss a ramp, tell nothing of its error.
 Companions::Made Companions::made(int level, const std::function<void(double)>& progress) const {
+  try {
+    return stepped(level, progress);
+  } catch (const hydro::InputError& e) {
+    if (level <= 0) throw;
+    Made out;
+    out.run.stopped = e.rule();
+    return out;
+  }
+}
+
+Companions::Made Companions::stepped(int level, const std::function<void(double)>& progress) const {
   Made out;
   const scene::Scene scene = scene_of(level, out.stride);
   const auto begin = std::chrono::steady_clock::now();

@@ -98,11 +98,12 @@ class Companions {
   };
   struct Made {
     Run run;
-    std::size_t stride;
-    std::optional<compile::VelocityRecord> motion;  ///< where it may be asked for, and is small
+    std::size_t stride = 1;
+    std::optional<compile::VelocityRecord> motion = {};  ///< where it may be asked for, and is small
   };
   void hold_memories();
   Made made(int level, const std::function<void(double)>& progress) const;
+  Made stepped(int level, const std::function<void(double)>& progress) const;
   Run quarters_of(int level, int quarters, bool disturbed, const std::function<void(double)>& progress) const;
   bool keeps_motion(int level, const compile::TimeModel& model) const;
   std::optional<Run> with_load(int level, const std::optional<compile::LoadRecord>& load, const std::string& name,

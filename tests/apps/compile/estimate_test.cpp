@@ -80,6 +80,20 @@ TEST(Estimate, WarnsWhereAGivenStepMissesTheAccuracy) {
                                                          HasSubstr("from the step that the scene gives"))));
 }
 
+TEST(Estimate, ALoadThatOnlyTheLongerStepsMissIsNoReasonToRefuse) {
+  // 20 N that rise within 0.5 s: steps of 0.4 s, which the scene gives, take that, those of 0.8 s do not.
+  const auto run = simulate(
+      parse("schema = 1\n[water]\ndensity = \"1000 kg/m^3\"\ndepth = \"infinite\"\n"
+            "[[body]]\nname = \"b\"\nmass = \"30 kg\"\ncentre_of_gravity = \"(0, 0, 0) m\"\nfree = [\"surge\"]\n"
+            "[[mooring]]\non = \"b\"\nkind = \"linear\"\nstiffness = { surge = \"100 N/m\" }\n"
+            "[[load]]\non = \"b\"\nforce = \"(20, 0, 0) N\"\nfrom = \"0.3 s\"\nramp_up = \"0.5 s\"\n"
+            "[ask]\nrun = { duration = \"80 s\", every = \"0.8 s\", of = [\"b.surge\"] }\naccuracy = 5e-2\n"
+            "[solve]\nstep = \"0.4 s\"\naccept_error = true\n"));
+  EXPECT_EQ(run.step, 0.4);
+  EXPECT_THAT(run.stopped, IsEmpty());
+  EXPECT_GT(run.error.total(0), 0.05);  // told by a run of half the step
+}
+
 TEST(Estimate, AnIntegratorWithAToleranceIsJudgedByIt) {
   const auto run =
       simulate(parse(sledge("", "[solve]\nintegrator = { name = \"explicit_pair\", tolerance = 1e-4 }\n")));
