@@ -270,7 +270,7 @@ class Refinement {
   /// What of the accuracy is left for the step beside whatever else the program chooses, and beside what the scene
   /// gives, unless that leaves next to nothing: then no step could mend it.
   double left_for_step(std::size_t signal) const {
-    constexpr double least = 0.25;
+    constexpr double least = 0.1;
     double out = scene_.accuracy, given = 0;
     for (const auto& source : others_)
       if (source.given)

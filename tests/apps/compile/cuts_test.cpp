@@ -235,11 +235,22 @@ TEST(Cuts, TheStepIsRefinedIntoWhatGivenPiecesLeaveOfTheAccuracy) {
   EXPECT_GT(told(fine, "pieces")[worst], 0.5 * 2e-2);  // no small part of what is asked
   EXPECT_LE(fine.error.total(worst), 2e-2);
   EXPECT_THAT(fine.warnings(), IsEmpty());
-  // Two hundred leave less than a quarter: the step cannot mend that, and is not said to be given.
-  const auto coarse = simulate(parse(dipping_pole(200)));
-  EXPECT_GT(coarse.error.total(coarse.error.worst()), 2e-2);
-  EXPECT_THAT(coarse.warnings(),
-              ElementsAre(AllOf(HasSubstr("of it from the pieces that the scene gives"), Not(HasSubstr("step")))));
+  // A hundred leave nothing: no step mends that.
+  const auto coarse = simulate(parse(dipping_pole(100)));
+  EXPECT_GT(told(coarse, "pieces")[coarse.error.worst()], 2e-2);
+  EXPECT_THAT(coarse.warnings(), ElementsAre(HasSubstr("most of it from the pieces that the scene gives")));
+}
+
+TEST(Cuts, AWarningNamesWhatTheSceneGivesAndNoStepThatItDoesNot) {
+  froude::Run run;
+  run.signals = {{"x", "m", "", {0, 1}}};
+  run.error = {.asked = 2e-2,
+               .sources = {{.name = "step", .how = "", .of_signal = {0.018}, .given = false},
+                           {.name = "pieces", .how = "", .of_signal = {0.014}, .given = true}}};
+  EXPECT_THAT(run.warnings(), ElementsAre(AllOf(HasSubstr("0.014 of it from the pieces that the scene gives"),
+                                                Not(HasSubstr("step")))));
+  run.error.sources[0].given = true;
+  EXPECT_THAT(run.warnings(), ElementsAre(HasSubstr("most of it from the step that the scene gives")));
 }
 
 TEST(Cuts, PiecesThatTheProgramChoosesAreWithinHalfOfWhatIsAsked) {
