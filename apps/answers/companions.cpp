@@ -17,6 +17,8 @@
 #include "compile/radiation.hpp"
 #include "compile/restart.hpp"
 #include "compile/step.hpp"
+#include "dynamics/force/contact_law.hpp"
+#include "dynamics/integrate/newton_integrator.hpp"
 #include "hydro/base/error.hpp"
 #include "scene/finer.hpp"
 
@@ -150,6 +152,9 @@ bool Companions::keeps_motion(int level, const compile::TimeModel& model) const 
   constexpr std::size_t most = std::size_t{1} << 21U;  // numbers, of 16 MiB
   return level > 0 && !prepared_.groups.empty() && model.steps * static_cast<std::size_t>(model.model.modes()) < most;
 }
+  // So is what Newton leaves in each step: runs that all leave the same would agree in what it does to the motion.
+  out.solve.newton_tolerance = std::max(dynamics::NewtonIntegrator::least_residual_tolerance,
+                                        scene::newton_tolerance(scene_) * std::pow(4, level));
 
 const char* Companions::name_of(Cut what) {
   constexpr std::array<const char*, 3> names{"segments", "given", "chosen"};

@@ -66,21 +66,22 @@ class Refinement {
   }
 
  private:
-  static constexpr int most_at_once = 2;  // levels
-  static constexpr double room = 0.8;     // of what is left for the step, which is aimed at
+  static constexpr int coarsest_limit = -6;  // level; what any scene is refined to
+  static constexpr int most_at_once = 2;     // levels
+  static constexpr double room = 0.8;        // of what is left for the step, which is aimed at
   static constexpr const char* twice_as_many = "a run with twice as many";
   static constexpr const char* own_pieces = "quadrature";
   static constexpr const char* less_accuracy = "ask for less accuracy";
 
   /// A 64th of the step that was chosen first, at a hundred times its cost; where that is little, further.
   static int finest_level(const scene::Scene& scene, const Companions& companions) {
-    constexpr int always = -6, most = -12;
-    if (companions.by_tolerance()) return always;
+    constexpr int most = -12;
+    if (companions.by_tolerance()) return coarsest_limit;
     constexpr double little = 1e6;  // steps of a body or a segment: seconds
     double parts = static_cast<double>(scene.bodies.size());
     for (const auto& line : scene.lines) parts += static_cast<double>(line.segments.size());
     const double all = std::max(1.0, parts) * scene.run->duration / companions.first_step();
-    return std::clamp(-static_cast<int>(std::floor(std::log2(little / all))), most, always);
+    return std::clamp(-static_cast<int>(std::floor(std::log2(little / all))), most, coarsest_limit);
   }
   /// Half the step may bring a run to its end, unless the step before has ended it at the same time: then it is the
   /// motion that cannot go on.
@@ -287,6 +288,12 @@ class Refinement {
     if (j.error <= allowed) return 0;
     return static_cast<int>(std::ceil(std::log(j.error / allowed) / std::log(std::min(j.ratio, largest_ratio()))));
   }
+  /// True if a level would do were errors to fall as those of the method: long steps saturate, and foretell less. Where
+  /// runs take long, that is not waited for.
+  bool may_do_at_best(int level, const Judged& j, double allowed) const {
+    if (finest_ == coarsest_limit || level == finest_ || !j.converges()) return false;
+    return level - std::ceil(std::log(j.error / allowed) / std::log(largest_ratio())) >= finest_;
+  }
   /// True if it is the step that leaves next to nothing of a signal to be predicted: a tenth of the time in which a
   /// neighbour a hundred-millionth beside comes as far off. Where steps do, each halving adds little to that time.
   bool is_lost_at_once(std::size_t signal) const {
@@ -308,8 +315,8 @@ class Refinement {
       if (left <= 0) refuse_memory(level, i);  // pieces are within half of what is asked
       if (!may_refine()) continue;
       const int needed = levels_needed(j, room * left);
-      if (level - needed < finest_) refuse_step(level, i);
-      out = std::min(out, level - std::clamp(needed, 1, most_at_once));
+      if (level - needed < finest_ && !may_do_at_best(level, j, room * left)) refuse_step(level, i);
+      out = std::min(out, std::max(finest_, level - std::clamp(needed, 1, most_at_once)));
     }
     return out;
   }

@@ -2,6 +2,7 @@
 // cannot.
 #include "answers/estimate.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -124,7 +125,7 @@ std::string pendulum(double angle, const std::string& accuracy) {
   return "schema = 1\n[water]\ndensity = \"1000 kg/m^3\"\ngravity = \"9.81 m/s^2\"\ndepth = \"infinite\"\n"
          "[[body]]\nname = \"p\"\nmass = \"3 kg\"\nweight = true\ncentre_of_gravity = \"(0, 0, -1.2) m\"\n"
          "inertia = \"(0.7, 0.5, 0.2) kg m^2\"\ninitial = { pitch = \"" +
-         std::to_string(angle) +
+         fmt::format("{:.17g}", angle) +
          " rad\" }\n[[joint]]\nname = \"h\"\nkind = \"hinge\"\nbetween = [\"ground\", \"p\"]\nat = \"(0, 0, 0) m\"\n"
          "axis = \"y\"\n[ask]\naccuracy = " +
          accuracy + "\nrun = { duration = \"100 s\", every = \"0.1 s\", of = [\"h.angle\"] }\n";
@@ -157,6 +158,17 @@ TEST(Estimate, RefinesAStepOfItsOwnWithWhichTheRunDoesNotEnd) {
     EXPECT_EQ(run.time.back(), 100);
     EXPECT_LE(error_of_pendulum(run, std::numbers::pi / 2), std::stod(accuracy));
     EXPECT_LE(run.error.total(0), std::stod(accuracy));
+  }
+}
+
+// From 179.9 degrees it stays a while near its highest place, where what Newton leaves in each step grows a
+// thousandfold. Runs that all leave the same agree in that; the truth was off by 0.13 where 0.01 was told.
+TEST(Estimate, SeesWhatNewtonLeavesInEachStep) {
+  constexpr double angle = 179.9 * std::numbers::pi / 180;
+  for (const char* accuracy : {"0.05", "0.01"}) {
+    const auto run = simulate(parse(pendulum(angle, accuracy)));
+    EXPECT_LE(error_of_pendulum(run, angle), std::stod(accuracy));
+    EXPECT_THAT(run.warnings(), IsEmpty());
   }
 }
 
