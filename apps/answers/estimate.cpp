@@ -32,7 +32,8 @@ class Refinement {
       : scene_(scene),
         companions_(companions),
         weight_(weight_of(prepared)),
-        finest_(finest_level(scene, companions)) {}
+        work_(work_of(scene, companions)),
+        finest_(finest_level()) {}
 
   Run settled() {
     int level = 0;
@@ -73,15 +74,23 @@ class Refinement {
   static constexpr const char* own_pieces = "quadrature";
   static constexpr const char* less_accuracy = "ask for less accuracy";
 
-  /// A 64th of the step that was chosen first, at a hundred times its cost; where that is little, further.
-  static int finest_level(const scene::Scene& scene, const Companions& companions) {
-    constexpr int most = -12;
-    if (companions.by_tolerance()) return coarsest_limit;
-    constexpr double little = 1e6;  // steps of a body or a segment: seconds
+  /// Steps of a body or a segment that the run of level 0 takes.
+  static double work_of(const scene::Scene& scene, const Companions& companions) {
     double parts = static_cast<double>(scene.bodies.size());
     for (const auto& line : scene.lines) parts += static_cast<double>(line.segments.size());
-    const double all = std::max(1.0, parts) * scene.run->duration / companions.first_step();
-    return std::clamp(-static_cast<int>(std::floor(std::log2(little / all))), most, coarsest_limit);
+    return std::max(1.0, parts) * scene.run->duration / companions.first_step();
+  }
+  /// That of a level is a matter of seconds.
+  bool is_cheap(int level) const {
+    constexpr double little = 1e6;
+    return work_ * std::exp2(-level) <= little;
+  }
+  /// A 64th of the step that was chosen first, at a hundred times its cost; where that is little, further.
+  int finest_level() const {
+    constexpr int most = -12;
+    int out = coarsest_limit;
+    while (!companions_.by_tolerance() && out > most && is_cheap(out - 1)) --out;
+    return out;
   }
   /// Half the step may bring a run to its end, unless the step before has ended it at the same time: then it is the
   /// motion that cannot go on.
@@ -164,14 +173,21 @@ class Refinement {
   /// Steps that are too long part neighbours that the motion itself keeps together. Half as much again as the time in
   /// which neighbours come as far off as is asked shows that with short ones.
   bool part_with_much_shorter_steps(std::size_t signal) {
-    const int much_shorter = companions_.much_shorter();
-    if (much_shorter == 0) return true;
     constexpr double more = 1.5;
+    const int much_shorter = much_shorter_level();
+    if (much_shorter == 0) return true;
     const Beside run = companions_.beside(0), neighbour{&companions_.neighbour(), 1};
     const double parted = agrees_until(run, neighbour, signal, scene_.accuracy * sizes_[signal].rms);
     const double quarters = std::ceil(4 * more * parted / run.run->time.back());
     const auto& pair = companions_.pair(much_shorter, static_cast<int>(std::clamp(quarters, 1.0, 4.0)));
     return grows_much(pair.run, pair.neighbour, signal);
+  }
+  /// An eighth of the step that the program begins with, a 64th where that is cheap.
+  int much_shorter_level() const {
+    constexpr int more = 3;
+    int out = companions_.much_shorter();
+    for (int i = 0; i < more && !companions_.by_tolerance() && is_cheap(out - 1); ++i) --out;
+    return out;
   }
   /// Up to where what runs with other steps differ by leaves the signal within the accuracy asked.
   Judged while_predictable(const Beside& fine, const Beside& coarse, const std::optional<Beside>& coarsest,
@@ -291,7 +307,7 @@ class Refinement {
   /// True if a level would do were errors to fall as those of the method: long steps saturate, and foretell less. Where
   /// runs take long, that is not waited for.
   bool may_do_at_best(int level, const Judged& j, double allowed) const {
-    if (finest_ == coarsest_limit || level == finest_ || !j.converges()) return false;
+    if (!is_cheap(coarsest_limit) || level == finest_ || !j.converges()) return false;
     return level - std::ceil(std::log(j.error / allowed) / std::log(largest_ratio())) >= finest_;
   }
   /// True if it is the step that leaves next to nothing of a signal to be predicted: a tenth of the time in which a
@@ -389,7 +405,8 @@ class Refinement {
   const scene::Scene& scene_;
   Companions& companions_;
   double weight_;  // N
-  int finest_;     // level
+  double work_;
+  int finest_;  // level
   std::vector<Sizes> sizes_;
   std::vector<Judged> judged_;
   std::vector<double> known_until_;  // s, one a signal: what the water leaves of it
