@@ -79,13 +79,27 @@ void ask_for_signals_of(const Run& other, const scene::Scene& scene, int times, 
   ask.of_places.assign(ask.of.size(), ask.place);
 }
 
-/// A start that lies beside that of the model, in directions that any run of this scene takes alike.
+bool overlaps(const dynamics::Model& model, const dynamics::State& state) {
+  for (const auto& kind : model.forces())
+    if (const dynamics::ContactLaw* law = kind->contact())
+      for (std::size_t i = 0; i < law->elements(); ++i)
+        if (law->gap(i, state) < 0) return true;
+  return false;
+}
+
+/// A start that lies beside that of the model, in directions that any run of this scene takes alike. Where bodies rest
+/// against each other they would be moved into each other: there velocities alone are moved.
 void disturb(double by, compile::TimeModel& model) {
   const compile::StateChart chart(model, compile::start_of(model));
   std::mt19937 random(1);
   Eigen::VectorXd coordinates(chart.coordinates());
   for (double& c : coordinates) c = (random() & 1U) != 0U ? by : -by;
-  compile::start_from(chart.at(model, coordinates), model);
+  compile::MovingState beside = chart.at(model, coordinates);
+  if (overlaps(model.model, beside.bodies)) {
+    coordinates.head(chart.places_of_bodies()).setZero();
+    beside = chart.at(model, coordinates);
+  }
+  compile::start_from(beside, model);
 }
 
 }  // namespace
@@ -138,6 +152,9 @@ scene::Scene Companions::scene_of(int level, std::size_t& stride, compile::Piece
   // The same of lines whose steps are cut by their own error: as if it fell with the square of the step, as others'
   // does.
   out.solve.line_tolerance = scene::line_tolerance(scene_) * std::pow(4, level);
+  // So is what Newton leaves in each step: runs that all leave the same would agree in what it does to the motion.
+  out.solve.newton_tolerance = std::max(dynamics::NewtonIntegrator::least_residual_tolerance,
+                                        scene::newton_tolerance(scene_) * std::pow(4, level));
   auto per_sample = static_cast<std::size_t>(std::llround(scene_.run->every / step_));
   if (level < 0)
     per_sample <<= -level;
@@ -152,9 +169,6 @@ bool Companions::keeps_motion(int level, const compile::TimeModel& model) const 
   constexpr std::size_t most = std::size_t{1} << 21U;  // numbers, of 16 MiB
   return level > 0 && !prepared_.groups.empty() && model.steps * static_cast<std::size_t>(model.model.modes()) < most;
 }
-  // So is what Newton leaves in each step: runs that all leave the same would agree in what it does to the motion.
-  out.solve.newton_tolerance = std::max(dynamics::NewtonIntegrator::least_residual_tolerance,
-                                        scene::newton_tolerance(scene_) * std::pow(4, level));
 
 const char* Companions::name_of(Cut what) {
   constexpr std::array<const char*, 3> names{"segments", "given", "chosen"};
