@@ -55,6 +55,15 @@ TEST(LineLoads, LetABobGoWhoseEnergyIsThenItsOwn) {
   EXPECT_NEAR(run.signal("energy.p.residual").back(), 0, 1e-9);
 }
 
+// What a residual is held against is seen at each step, not at samples alone.
+TEST(LineLoads, TurnOverAsMuchHoweverRarelyTheyAreKept) {
+  std::string rarely = bob("until = \"1 s\"\n");
+  const auto often = simulate(parse(rarely));
+  rarely.replace(rarely.find("0.02 s"), 6, "2 s");
+  EXPECT_DOUBLE_EQ(simulate(parse(rarely)).turnover(), often.turnover());
+  EXPECT_GT(often.turnover(), 0.1);  // J
+}
+
 TEST(LineLoads, AreSuppliedWhereTheyMoveANode) {
   const auto run =
       simulate(parse(bob("from = \"0.317 s\"\nramp_up = \"1.2 s\"\nuntil = \"2.5 s\"\nramp_down = \"1 s\"\n")));
