@@ -1,5 +1,7 @@
 #include "answers/companions.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -15,6 +17,8 @@
 #include "compile/radiation.hpp"
 #include "compile/restart.hpp"
 #include "compile/step.hpp"
+#include "dynamics/force/contact_law.hpp"
+#include "dynamics/integrate/newton_integrator.hpp"
 #include "hydro/base/error.hpp"
 #include "scene/finer.hpp"
 
@@ -75,13 +79,27 @@ void ask_for_signals_of(const Run& other, const scene::Scene& scene, int times, 
   ask.of_places.assign(ask.of.size(), ask.place);
 }
 
-/// A start that lies beside that of the model, in directions that any run of this scene takes alike.
+bool overlaps(const dynamics::Model& model, const dynamics::State& state) {
+  for (const auto& kind : model.forces())
+    if (const dynamics::ContactLaw* law = kind->contact())
+      for (std::size_t i = 0; i < law->elements(); ++i)
+        if (law->gap(i, state) < 0) return true;
+  return false;
+}
+
+/// A start that lies beside that of the model, in directions that any run of this scene takes alike. Where bodies rest
+/// against each other they would be moved into each other: there velocities alone are moved.
 void disturb(double by, compile::TimeModel& model) {
   const compile::StateChart chart(model, compile::start_of(model));
   std::mt19937 random(1);
   Eigen::VectorXd coordinates(chart.coordinates());
   for (double& c : coordinates) c = (random() & 1U) != 0U ? by : -by;
-  compile::start_from(chart.at(model, coordinates), model);
+  compile::MovingState beside = chart.at(model, coordinates);
+  if (overlaps(model.model, beside.bodies)) {
+    coordinates.head(chart.places_of_bodies()).setZero();
+    beside = chart.at(model, coordinates);
+  }
+  compile::start_from(beside, model);
 }
 
 }  // namespace
@@ -134,6 +152,9 @@ scene::Scene Companions::scene_of(int level, std::size_t& stride, compile::Piece
   // The same of lines whose steps are cut by their own error: as if it fell with the square of the step, as others'
   // does.
   out.solve.line_tolerance = scene::line_tolerance(scene_) * std::pow(4, level);
+  // So is what Newton leaves in each step: runs that all leave the same would agree in what it does to the motion.
+  out.solve.newton_tolerance = std::max(dynamics::NewtonIntegrator::least_residual_tolerance,
+                                        scene::newton_tolerance(scene_) * std::pow(4, level));
   auto per_sample = static_cast<std::size_t>(std::llround(scene_.run->every / step_));
   if (level < 0)
     per_sample <<= -level;
@@ -162,7 +183,19 @@ void Companions::require_uninterrupted() const {
   if (asks_to_end(interruption_)) throw Interrupted{};
 }
 
+/// Longer steps that a scene may not have, such as those that miss a ramp, tell nothing of its error.
 Companions::Made Companions::made(int level, const std::function<void(double)>& progress) const {
+  try {
+    return stepped(level, progress);
+  } catch (const hydro::InputError& e) {
+    if (level <= 0) throw;
+    Made out;
+    out.run.stopped = e.rule();
+    return out;
+  }
+}
+
+Companions::Made Companions::stepped(int level, const std::function<void(double)>& progress) const {
   Made out;
   const scene::Scene scene = scene_of(level, out.stride);
   const auto begin = std::chrono::steady_clock::now();
@@ -289,6 +322,7 @@ void Companions::refine_pieces(int times) {
   foreseen_.clear();
   followed_.clear();
   neighbour_.reset();
+  pairs_.clear();
 }
 
 double Companions::moved_by() const { return std::max(1e-9, 10 * scene::newton_tolerance(scene_)); }
@@ -303,6 +337,42 @@ const Run& Companions::neighbour() {
     require_uninterrupted();
   }
   return *neighbour_;
+}
+
+Run Companions::quarters_of(int level, int quarters, bool disturbed,
+                            const std::function<void(double)>& progress) const {
+  std::size_t stride = 1;
+  scene::Scene scene = scene_of(level, stride);
+  scene.run->duration = std::ceil(scene.run->duration / scene.run->every * quarters / 4 - 1e-9) * scene.run->every;
+  compile::TimeModel model = compile::time_model(scene, prepared_);
+  if (disturbed) disturb(moved_by(), model);
+  const std::string name = fmt::format("{}-quarters{}", disturbed ? "disturbed" : "undisturbed", quarters);
+  return run_model(scene, model, progress, nullptr, nullptr, kept(name, level));
+}
+
+/// Both take the same time, and are made beside each other where there is a thread for it.
+const Companions::Pair& Companions::pair(int level, int quarters) {
+  const auto known = pairs_.find(level);
+  if (known != pairs_.end() && known->second.quarters >= quarters) return known->second;
+  const auto disturbed = [&](const std::function<void(double)>& progress) {
+    return quarters_of(level, quarters, true, progress);
+  };
+  std::future<Run> beside;
+  if (threads_ > 1) beside = std::async(std::launch::async, disturbed, std::function<void(double)>());
+  Pair out{quarters_of(level, quarters, false, progress_), {}, quarters};
+  out.neighbour = beside.valid() ? beside.get() : disturbed(progress_);
+  require_uninterrupted();
+  return pairs_.insert_or_assign(level, std::move(out)).first->second;
+}
+
+int Companions::much_shorter() const {
+  constexpr int eighth = 3, most = 7;
+  if (!given_ || by_tolerance_) return -eighth;
+  scene::Scene own = scene_;
+  own.solve.step.reset();
+  own.run->duration = own.run->every;  // how many steps the whole run would take is not asked
+  const double levels = std::log2(step_ / compile::choose_step(own, prepared_).value) + eighth;
+  return -static_cast<int>(std::clamp(std::ceil(levels - 1e-9), 0.0, 1.0 * most));
 }
 
 std::vector<const Run*> Companions::completed() const {

@@ -30,6 +30,8 @@ class Companions {
   bool by_tolerance() const { return by_tolerance_; }
   /// True if the scene gives what is varied.
   bool given() const { return given_; }
+  /// s; that of level 0.
+  double first_step() const { return step_; }
   /// By which errors fall from one level to the next at most: that of the method's order.
   double largest_ratio() const;
   /// "runs at 2 and 4 times the step"
@@ -64,6 +66,15 @@ class Companions {
   void refine_pieces(int times);
   /// Level 0 with its start moved by `moved_by()`, this way and that.
   const Run& neighbour();
+  /// A level and its neighbour over the first quarters of the run, or more of them, 4 at most.
+  struct Pair {
+    Run run, neighbour;
+    int quarters;
+  };
+  const Pair& pair(int level, int quarters);
+  /// The level whose steps are an eighth of what the program itself would begin with, or shorter; 0 where the scene
+  /// gives such steps.
+  int much_shorter() const;
   /// m, rad, m/s and rad/s: far above what Newton leaves, far below what anybody asks for.
   double moved_by() const;
   /// True if that run came to its end in steps longer than those of the level below: where there are few samples, and a
@@ -87,11 +98,13 @@ class Companions {
   };
   struct Made {
     Run run;
-    std::size_t stride;
-    std::optional<compile::VelocityRecord> motion;  ///< where it may be asked for, and is small
+    std::size_t stride = 1;
+    std::optional<compile::VelocityRecord> motion = {};  ///< where it may be asked for, and is small
   };
   void hold_memories();
   Made made(int level, const std::function<void(double)>& progress) const;
+  Made stepped(int level, const std::function<void(double)>& progress) const;
+  Run quarters_of(int level, int quarters, bool disturbed, const std::function<void(double)>& progress) const;
   bool keeps_motion(int level, const compile::TimeModel& model) const;
   std::optional<Run> with_load(int level, const std::optional<compile::LoadRecord>& load, const std::string& name,
                                const std::function<void(double)>& progress);
@@ -119,6 +132,7 @@ class Companions {
   std::map<int, Made> foreseen_;  // and not asked for yet
   std::map<int, Followed> followed_;
   std::optional<Run> neighbour_;
+  std::map<int, Pair> pairs_;
 };
 
 }  // namespace froude

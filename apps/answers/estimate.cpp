@@ -29,7 +29,11 @@ struct Judged : Convergence {
 class Refinement {
  public:
   Refinement(const scene::Scene& scene, const compile::Prepared& prepared, Companions& companions)
-      : scene_(scene), companions_(companions), weight_(weight_of(prepared)) {}
+      : scene_(scene),
+        companions_(companions),
+        weight_(weight_of(prepared)),
+        work_(work_of(scene, companions)),
+        finest_(finest_level()) {}
 
   Run settled() {
     int level = 0;
@@ -37,8 +41,17 @@ class Refinement {
       level = first_level();
       for (int finer = level;; level = finer) {
         companions_.foresee(level, 2);
-        if (!companions_.completes(level)) return without_estimate(level, "the run has stopped early");
-        if (!judge(level)) return without_estimate(level, "runs with other steps do not come to their end");
+        if (!companions_.completes(level)) {
+          if (!may_end_later_with_half(level)) return without_estimate(level, "the run has stopped early");
+          finer = level - 1;
+          continue;
+        }
+        if (!judge(level)) {
+          if (!may_refine() || level <= finest_)
+            return without_estimate(level, "runs with other steps do not come to their end");
+          finer = level - 1;
+          continue;
+        }
         look_at_water(level);
         look_at_cuts(level);
         if (const int times = times_as_many_pieces(level); times > 1) {
@@ -54,11 +67,40 @@ class Refinement {
   }
 
  private:
-  static constexpr int finest = -6;       // a 64th of what was chosen first, at a hundred times its cost
-  static constexpr int most_at_once = 2;  // levels
-  static constexpr double room = 0.8;     // of what is left for the step, which is aimed at
+  static constexpr int coarsest_limit = -6;  // level; what any scene is refined to
+  static constexpr int most_at_once = 2;     // levels
+  static constexpr double room = 0.8;        // of what is left for the step, which is aimed at
   static constexpr const char* twice_as_many = "a run with twice as many";
   static constexpr const char* own_pieces = "quadrature";
+  static constexpr const char* less_accuracy = "ask for less accuracy";
+
+  /// Steps of a body or a segment that the run of level 0 takes.
+  static double work_of(const scene::Scene& scene, const Companions& companions) {
+    double parts = static_cast<double>(scene.bodies.size());
+    for (const auto& line : scene.lines) parts += static_cast<double>(line.segments.size());
+    return std::max(1.0, parts) * scene.run->duration / companions.first_step();
+  }
+  /// That of a level is a matter of seconds.
+  bool is_cheap(int level) const {
+    constexpr double little = 1e6;
+    return work_ * std::exp2(-level) <= little;
+  }
+  /// A 64th of the step that was chosen first, at a hundred times its cost; where that is little, further.
+  int finest_level() const {
+    constexpr int most = -12;
+    int out = coarsest_limit;
+    while (!companions_.by_tolerance() && out > most && is_cheap(out - 1)) --out;
+    return out;
+  }
+  /// Half the step may bring a run to its end, unless the step before has ended it at the same time: then it is the
+  /// motion that cannot go on.
+  bool may_end_later_with_half(int level) {
+    const Run& run = companions_.run(level);
+    const double end = static_cast<double>(run.steps) * run.step;
+    const bool later = !stopped_at_ || std::abs(end - *stopped_at_) > 2 * run.step;
+    stopped_at_ = end;
+    return later && !companions_.given() && level > finest_;
+  }
 
   bool may_refuse() const { return !scene_.solve.accept_error; }
   bool may_refine() const { return !companions_.given() && may_refuse(); }
@@ -117,13 +159,35 @@ class Refinement {
   }
   /// True where a finer level would do, as far as errors go on to fall as they have.
   bool can_be_refined(int level, const Judged& j) const {
-    return !may_refine() || level - levels_needed(j, room * scene_.accuracy) >= finest;
+    return !may_refine() || level - levels_needed(j, room * scene_.accuracy) >= finest_;
   }
   /// (E2)
   bool parts_neighbours(std::size_t signal) {
+    return grows_much(companions_.run(0), companions_.neighbour(), signal) && part_with_much_shorter_steps(signal);
+  }
+  bool grows_much(const Run& run, const Run& neighbour, std::size_t signal) const {
     constexpr double much = 1e3;                  // what parts in proportion to time comes to some 200
     const double least = companions_.moved_by();  // of the signal: about as far as the start is moved
-    return growth(companions_.run(0), companions_.neighbour(), signal, least * sizes_[signal].rms) > much;
+    return growth(run, neighbour, signal, least * sizes_[signal].rms) > much;
+  }
+  /// Steps that are too long part neighbours that the motion itself keeps together. Half as much again as the time in
+  /// which neighbours come as far off as is asked shows that with short ones.
+  bool part_with_much_shorter_steps(std::size_t signal) {
+    constexpr double more = 1.5;
+    const int much_shorter = much_shorter_level();
+    if (much_shorter == 0) return true;
+    const Beside run = companions_.beside(0), neighbour{&companions_.neighbour(), 1};
+    const double parted = agrees_until(run, neighbour, signal, scene_.accuracy * sizes_[signal].rms);
+    const double quarters = std::ceil(4 * more * parted / run.run->time.back());
+    const auto& pair = companions_.pair(much_shorter, static_cast<int>(std::clamp(quarters, 1.0, 4.0)));
+    return grows_much(pair.run, pair.neighbour, signal);
+  }
+  /// An eighth of the step that the program begins with, a 64th where that is cheap.
+  int much_shorter_level() const {
+    constexpr int more = 3;
+    int out = companions_.much_shorter();
+    for (int i = 0; i < more && !companions_.by_tolerance() && is_cheap(out - 1); ++i) --out;
+    return out;
   }
   /// Up to where what runs with other steps differ by leaves the signal within the accuracy asked.
   Judged while_predictable(const Beside& fine, const Beside& coarse, const std::optional<Beside>& coarsest,
@@ -201,7 +265,7 @@ class Refinement {
     if (worst <= share * scene_.accuracy) return 1;
     if (companions_.refined_pieces() >= most)
       refuse(level, signal, worst,
-             fmt::format("the pieces of members stand in the way: {} times as many do not do", most), "");
+             fmt::format("the pieces of members stand in the way: {} times as many do not do", most), less_accuracy);
     const double wanted = std::min(std::ceil(worst / (share * scene_.accuracy)), 1.0 * most_more);
     return static_cast<int>(std::bit_ceil(static_cast<unsigned>(wanted)));
   }
@@ -220,12 +284,17 @@ class Refinement {
     const double allowed = std::max(scene_.accuracy.value, more * first);
     return std::min(until, agrees_until(without, put_back, signal, allowed * sizes_[signal].rms));
   }
-  /// What of the accuracy is left for the step beside whatever else the program chooses.
+  /// What of the accuracy is left for the step beside whatever else the program chooses, and beside what the scene
+  /// gives, unless that leaves next to nothing: then no step could mend it.
   double left_for_step(std::size_t signal) const {
-    double out = scene_.accuracy;
+    constexpr double least = 0.1;
+    double out = scene_.accuracy, given = 0;
     for (const auto& source : others_)
-      if (!source.given) out -= source.of_signal[signal];
-    return out;
+      if (source.given)
+        given += source.of_signal[signal];
+      else
+        out -= source.of_signal[signal];
+    return out - given >= least * scene_.accuracy ? out - given : out;
   }
 
   /// By how many levels, as far as errors fall as they have. Steps that are too long to converge foretell nothing: then
@@ -234,6 +303,12 @@ class Refinement {
     if (!j.converges()) return most_at_once;
     if (j.error <= allowed) return 0;
     return static_cast<int>(std::ceil(std::log(j.error / allowed) / std::log(std::min(j.ratio, largest_ratio()))));
+  }
+  /// True if a level would do were errors to fall as those of the method: long steps saturate, and foretell less. Where
+  /// runs take long, that is not waited for.
+  bool may_do_at_best(int level, const Judged& j, double allowed) const {
+    if (!is_cheap(coarsest_limit) || level == finest_ || !j.converges()) return false;
+    return level - std::ceil(std::log(j.error / allowed) / std::log(largest_ratio())) >= finest_;
   }
   /// True if it is the step that leaves next to nothing of a signal to be predicted: a tenth of the time in which a
   /// neighbour a hundred-millionth beside comes as far off. Where steps do, each halving adds little to that time.
@@ -251,13 +326,13 @@ class Refinement {
     for (std::size_t i = 0; i < judged_.size(); ++i) {
       const Judged& j = judged_[i];
       const double left = left_for_step(i);
-      if (level > finest && is_lost_at_once(i)) out = std::min(out, level - 1);
+      if (level > finest_ && is_lost_at_once(i)) out = std::min(out, level - 1);
       if (j.error <= left) continue;
       if (left <= 0) refuse_memory(level, i);  // pieces are within half of what is asked
       if (!may_refine()) continue;
       const int needed = levels_needed(j, room * left);
-      if (level - needed < finest) refuse_step(level, i);
-      out = std::min(out, level - std::clamp(needed, 1, most_at_once));
+      if (level - needed < finest_ && !may_do_at_best(level, j, room * left)) refuse_step(level, i);
+      out = std::min(out, std::max(finest_, level - std::clamp(needed, 1, most_at_once)));
     }
     return out;
   }
@@ -269,21 +344,27 @@ class Refinement {
                     "deviation or extreme; {}",
                     scene_.accuracy.value, companions_.at(level).signals[signal].name, error, why),
         scene_.accuracy.place,
-        remedy +
-            "ask for less accuracy, leave that signal out of `of`, or take the error by name: [solve] accept_error = "
-            "true");
+        remedy + ", leave that signal out of `of`, or take the error by name: [solve] accept_error = true");
   }
   [[noreturn]] void refuse_step(int level, std::size_t signal) const {
     const Judged& j = judged_[signal];
     const bool tolerance = companions_.by_tolerance();
     refuse(level, signal, j.error,
-           fmt::format("the {} stands in the way: errors fall by {:.2g} from one run to the next with {}",
-                       tolerance ? "tolerance" : "step", j.ratio, tolerance ? "a tenth of it" : "half of it"),
-           "");
+           fmt::format("the {} stands in the way: errors {} from one run to the next with {}",
+                       tolerance ? "tolerance" : "step",
+                       j.ratio > 0 ? fmt::format("fall by {:.2g}", j.ratio) : "are not seen to fall",
+                       tolerance ? "a tenth of it" : "half of it"),
+           tolerance ? "give a smaller tolerance" : shorter_step(level, j));
+  }
+  /// Less accuracy is begun with a longer step, from which it is as far to one that would do.
+  std::string shorter_step(int level, const Judged& j) const {
+    const double longest = companions_.at(level).step / std::exp2(levels_needed(j, room * scene_.accuracy));
+    return fmt::format("give a shorter step, [solve] step = \"{:.6g} s\"",
+                       scene_.run->every / std::ceil(scene_.run->every / longest));
   }
   [[noreturn]] void refuse_memory(int level, std::size_t signal) const {
     refuse(level, signal, scene_.accuracy - left_for_step(signal), "the memory of radiated waves stands in the way",
-           "give radiation a finer memory_tolerance, ");
+           fmt::format("give radiation a finer memory_tolerance, {}", less_accuracy));
   }
 
   Run told(int level) {
@@ -324,10 +405,13 @@ class Refinement {
   const scene::Scene& scene_;
   Companions& companions_;
   double weight_;  // N
+  double work_;
+  int finest_;  // level
   std::vector<Sizes> sizes_;
   std::vector<Judged> judged_;
   std::vector<double> known_until_;  // s, one a signal: what the water leaves of it
   bool looked_ = false, looked_at_cuts_ = false;
+  std::optional<double> stopped_at_;  // s; where the last run did not come to its end
   std::vector<std::string> unseen_;
   std::vector<ErrorEstimate::Source> others_;
 };

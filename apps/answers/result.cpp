@@ -105,6 +105,17 @@ std::string listed(const std::vector<std::string>& all) {
   return all.size() > told_by_name ? fmt::format("{}, and {} more", out, all.size() - told_by_name) : out;
 }
 
+/// What the scene gives keeps a signal from the accuracy asked: its largest part in that.
+std::string share_of_given(const ErrorEstimate& e, std::size_t signal) {
+  const ErrorEstimate::Source* largest = nullptr;
+  for (const auto& source : e.sources)
+    if (source.given && (!largest || source.of_signal[signal] > largest->of_signal[signal])) largest = &source;
+  if (!largest) return fmt::format("most of it from the {}", e.largest_source(signal).name);
+  if (largest == &e.largest_source(signal))
+    return fmt::format("most of it from the {} that the scene gives", largest->name);
+  return fmt::format("{:.2g} of it from the {} that the scene gives", largest->of_signal[signal], largest->name);
+}
+
 /// Of signals that are off by more than was asked, which the scene takes.
 template <class S>
 std::string warning_of_error(const ErrorEstimate& e, const std::vector<S>& signals, const char* of) {
@@ -113,9 +124,7 @@ std::string warning_of_error(const ErrorEstimate& e, const std::vector<S>& signa
   for (std::size_t i = 0; i < signals.size(); ++i)
     if (i != e.worst() && e.total(i) > e.asked)
       others.push_back(fmt::format("{} by {:.2g}", signals[i].name, e.total(i)));
-  const std::string why =
-      e.accepted ? "which the scene accepts"
-                 : fmt::format("most of it from the {} that the scene gives", e.largest_source(e.worst()).name);
+  const std::string why = e.accepted ? "which the scene accepts" : share_of_given(e, e.worst());
   return fmt::format("warning: {} is off by an estimated {:.2g} of its {}, {}{}", signals[e.worst()].name,
                      e.total(e.worst()), of, why, listed(others));
 }

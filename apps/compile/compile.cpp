@@ -284,7 +284,7 @@ PlanLine waves_line(const RunWater& water, double duration) {
 dynamics::State in_equilibrium(const Scene& scene, const dynamics::Model& model, dynamics::State start) {
   require_still_water(scene, "starts in equilibrium");
   return scene::placed(scene.run->place, [&] {
-    dynamics::State out = dynamics::equilibrium(model, start);
+    dynamics::State out = dynamics::equilibrium_before_run(model, start);
     out.velocity = start.velocity;
     return out;
   });

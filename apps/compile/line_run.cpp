@@ -19,11 +19,20 @@ void LineRun::begin() {
     if (part.snaps) snaps_.back().emplace(part.segments, part.snaps->slack_below, part.snaps->snap_above);
   }
   look();
+  note_turnover();
   looked_ = false;  // bodies may have been brought to their start meanwhile
+}
+
+/// After each step: what is turned over between two samples counts.
+void LineRun::note_turnover() {
+  const dl::Energies& e = energies();
+  turnover_ = std::max(
+      {turnover_, e.kinetic, e.axial, std::abs(e.height - first_height_), std::abs(e.supplied()), e.dissipated()});
 }
 
 void LineRun::note(double h) {
   looked_ = false;
+  note_turnover();
   for (std::size_t k = 0; k < snaps_.size(); ++k) {
     const LineModel::Part& part = model_.parts[k];
     if (snaps_[k]) snaps_[k]->note(state().time, h, state().tension.segment(part.first_segment, part.segments));
@@ -58,9 +67,6 @@ std::optional<dynamics::Exponent> LineRun::exponent() const {
 void LineRun::look() {
   if (looked_) return;
   looked_ = true;
-  const dl::Energies& e = energies();
-  turnover_ = std::max(
-      {turnover_, e.kinetic, e.axial, std::abs(e.height - first_height_), std::abs(e.supplied()), e.dissipated()});
   if (driven_ == nullptr && !stepper_->find_balance(state_, balance_)) {
     balance_ = {.acceleration = dl::Places::Zero(3, model_.line->nodes()),
                 .tension = state_.tension,

@@ -115,6 +115,7 @@ class LineRun {
 
  private:
   void begin();
+  void note_turnover();
   const LineModel& model_;
   dynamics::line::DrivenLine* driven_ = nullptr;
   dynamics::line::State state_;

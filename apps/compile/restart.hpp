@@ -31,6 +31,8 @@ class StateChart {
   /// The model is that of the middle; it may be forgotten after.
   StateChart(const TimeModel& model, MovingState middle);
   Eigen::Index coordinates() const;
+  /// The first ones: places of the bodies together; their velocities follow.
+  Eigen::Index places_of_bodies() const { return directions_.front().cols(); }
   /// All zero is the middle. \throws hydro::NumericsError if links cannot be brought to their lengths
   MovingState at(const TimeModel& model, const Eigen::VectorXd& coordinates) const;
 

@@ -3,7 +3,17 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dynamics/force/contact_law.hpp"
+
 namespace dynamics {
+namespace {
+
+double supplied_in_impacts(const Workspace& workspace) {
+  const auto* contacts = workspace.find_memory<ContactMemory>();
+  return contacts != nullptr ? contacts->supplied_by_joints : 0;
+}
+
+}  // namespace
 
 EnergyLedger::EnergyLedger(const Model& model, Workspace& workspace) : model_(model), time_(workspace.state.time) {
   kinetic_ = model.kinetic_energy(workspace.state);
@@ -14,6 +24,7 @@ EnergyLedger::EnergyLedger(const Model& model, Workspace& workspace) : model_(mo
     stored_at_start_.push_back(before_.back().stored);
     initial_ += before_.back().stored;
   }
+  in_impacts_ = supplied_in_impacts(workspace);
   note_turnover();
 }
 
@@ -42,6 +53,11 @@ void EnergyLedger::note(Workspace& workspace) {
     entries_[k].dissipated += now.dissipated_so_far ? *now.dissipated_so_far - *before_[k].dissipated_so_far
                                                     : h / 2 * (before_[k].dissipated + now.dissipated);
     before_[k] = now;
+  }
+  if (model_.joints().are_prescribed()) {  // whose entry is the last
+    const double so_far = supplied_in_impacts(workspace);
+    entries_.back().supplied += so_far - in_impacts_;
+    in_impacts_ = so_far;
   }
   note_turnover();
 }

@@ -91,9 +91,12 @@ void SetValuedLaws::still(Workspace& workspace, double step) {
   model_.tangent(workspace.state, 1, 0, 0, workspace, workspace.matrix);
   if (!solver.factorise(workspace.matrix, G, G, compliance)) return;
   const Eigen::VectorXd none = Eigen::VectorXd::Zero(model_.modes());
-  workspace.state.velocity +=
-      solver.solve(none, rows.prescribed_rates(workspace.state.time) - rows.times(G, workspace.state.velocity)).x;
-  const double lost = before - model_.kinetic_energy(workspace.state);
+  const KktSolver::Solution change =
+      solver.solve(none, rows.prescribed_rates(workspace.state.time) - rows.times(G, workspace.state.velocity));
+  workspace.state.velocity += change.x;
+  const double supplied = -model_.joints().prescribed_power(change.lambda, workspace.state.time);
+  active_.contact_memory(workspace).supplied_by_joints += supplied;
+  const double lost = before + supplied - model_.kinetic_energy(workspace.state);
   for (const std::size_t i : near)
     active_.contact_memory(workspace).contact[i].dissipated += lost / static_cast<double>(near.size());
   classify_contacts(workspace);

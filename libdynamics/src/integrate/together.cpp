@@ -21,6 +21,7 @@ struct SetValuedLaws::Touching {
   MatrixXd R;       // what rows see of velocities
   MatrixXd gained;  // velocities for each impulse
   MatrixXd W;       // what rows see of those
+  MatrixXd passed;  // impulses of what holds the bodies for each impulse
   KktSolver held;   // of the bodies with what holds them
   VectorXd own;     // what rows see of accelerations without loads of contacts
 
@@ -40,7 +41,7 @@ SetValuedLaws::Touching SetValuedLaws::touching(const JointSet& held, std::vecto
                                                 Workspace& workspace) const {
   const ContactLaw& kind = *active_.contact();
   const State& state = workspace.state;
-  Touching out{std::move(elements), {}, held.with_only({}), {}, {}, {}, KktSolver(model_.pattern(), held), {}};
+  Touching out{std::move(elements), {}, held.with_only({}), {}, {}, {}, {}, KktSolver(model_.pattern(), held), {}};
   for (const std::size_t i : out.element) {
     out.laws.push_back({out.rows.count(), bounces_spent_ ? 0 : kind.element(i).restitution, kind.element(i).friction});
     out.rows.add(kind.closed(i));
@@ -55,7 +56,12 @@ SetValuedLaws::Touching SetValuedLaws::touching(const JointSet& held, std::vecto
     throw hydro::NumericsError(
         fmt::format("no impulses can be found at t = {} s: the mass matrix is singular", state.time));
   out.gained.resize(model_.modes(), out.R.rows());
-  for (Index i = 0; i < out.R.rows(); ++i) out.gained.col(i) = out.held.solve(out.R.row(i).transpose(), nothing).x;
+  out.passed.resize(held.count(), out.R.rows());
+  for (Index i = 0; i < out.R.rows(); ++i) {
+    const KktSolver::Solution all = out.held.solve(out.R.row(i).transpose(), nothing);
+    out.gained.col(i) = all.x;
+    out.passed.col(i) = all.lambda;
+  }
   out.W = hydro::dense::symmetric_part(out.R * out.gained);
   return out;
 }
@@ -77,6 +83,8 @@ bool SetValuedLaws::collide(Workspace& workspace) {
   const Touching all = touching(model_.joints(), std::move(elements), workspace);
   const VectorXd before = all.R * state.velocity, z = impulses(all.W, before, all.laws);
   state.velocity += all.gained * z;
+  // Where a driven table is hit, its drive works in the blow too.
+  active_.contact_memory(workspace).supplied_by_joints -= model_.joints().prescribed_power(all.passed * z, state.time);
   const VectorXd after = all.R * state.velocity;
   for (std::size_t k = 0; k < all.element.size(); ++k) {
     ContactState& c = active_.contact_memory(workspace).contact[all.element[k]];

@@ -8,17 +8,22 @@
 namespace dynamics {
 namespace {
 
+/// Which kinds of force count.
+using Linear = Model::Linear (Model::*)(const State&) const;
+
 /// Loads left over, and the displacements that Newton asks for, in motions scaled by the root of the bodies' masses.
 class Balance {
  public:
-  explicit Balance(const Model& model) : model_(model), root_(model.dry_mass_at_rest().diagonal().cwiseSqrt()) {}
+  Balance(const Model& model, Linear linear)
+      : model_(model), linear_(linear), root_(model.dry_mass_at_rest().diagonal().cwiseSqrt()) {}
 
+  Model::Linear linear(const State& state) const { return (model_.*linear_)(state); }
   Eigen::VectorXd unbalanced(const State& state) const {
-    return root_.cwiseInverse().cwiseProduct(model_.linear_at(state).unbalanced);
+    return root_.cwiseInverse().cwiseProduct(linear(state).unbalanced);
   }
   /// The smallest solution of [K Gᵀ; G 0] (δ, λ) = (F, 0): along what nothing restores it does not go.
   Eigen::VectorXd correction(const State& state) const {
-    const Model::Linear linear = model_.linear_at(state);
+    const Model::Linear linear = this->linear(state);
     const Eigen::VectorXd scale = root_.cwiseInverse();
     const Eigen::Index n = scale.size(), m = linear.constraints.rows();
     Eigen::MatrixXd whole = Eigen::MatrixXd::Zero(n + m, n + m);
@@ -42,6 +47,7 @@ class Balance {
 
  private:
   const Model& model_;
+  Linear linear_;
   Eigen::VectorXd root_;
 };
 
@@ -62,8 +68,8 @@ State displaced(const Model& model, const State& from, const Eigen::VectorXd& mo
   return out;
 }
 
-[[noreturn]] void give_up(const Model& model, const State& state) {
-  const Eigen::VectorXd left = model.linear_at(state).unbalanced;
+[[noreturn]] void give_up(const Model& model, const Balance& balance, const State& state) {
+  const Eigen::VectorXd left = balance.linear(state).unbalanced;
   const Eigen::VectorXd per_mass = left.cwiseQuotient(model.dry_mass_at_rest().diagonal());
   Eigen::Index worst = 0;
   per_mass.cwiseAbs().maxCoeff(&worst);
@@ -73,11 +79,9 @@ State displaced(const Model& model, const State& from, const Eigen::VectorXd& mo
       {}, "name what holds it (hydrostatics, buoyancy, a mooring), or place the bodies nearer to where they balance");
 }
 
-}  // namespace
-
-State equilibrium(const Model& model, State start) {
+State at_rest(const Model& model, Linear linear, State start) {
   constexpr int most = 200;
-  const Balance balance(model);
+  const Balance balance(model, linear);
   start.velocity.setZero();
   State now = displaced(model, start, Eigen::VectorXd::Zero(model.modes()));
   double size = balance.unbalanced(now).norm();
@@ -97,9 +101,17 @@ State equilibrium(const Model& model, State start) {
   for (int i = 0; i < most; ++i) {
     if (size <= 1e-9 * balance.weight()) return now;
     // Where Newton leads nowhere, as for a pendulum held out level, the bodies follow their loads for a while.
-    if (!goes(balance.correction(now)) && !goes(longest(balance.along_load(now)))) give_up(model, now);
+    if (!goes(balance.correction(now)) && !goes(longest(balance.along_load(now)))) give_up(model, balance, now);
   }
-  give_up(model, now);
+  give_up(model, balance, now);
+}
+
+}  // namespace
+
+State equilibrium(const Model& model, State start) { return at_rest(model, &Model::linear_at, std::move(start)); }
+
+State equilibrium_before_run(const Model& model, State start) {
+  return at_rest(model, &Model::linear_before_runs, std::move(start));
 }
 
 }  // namespace dynamics

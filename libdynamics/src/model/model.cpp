@@ -231,16 +231,16 @@ double Model::kinetic_energy(const State& state, Eigen::VectorXd& momentum) cons
   return 0.5 * state.velocity.dot(momentum);
 }
 
-Model::Linear Model::linear_at(const State& still) const {
+Model::Linear Model::linear_of(const State& still, Counts counts) const {
   const auto assembled = [&](double c_v, double c_q) {
     BlockMatrix m(pattern_);
     JacobianSink sink(m, c_q, c_v);
     for (const auto& kind : forces_)
-      if (kind->linear_at_rest()) kind->add_jacobian({still, nullptr}, sink);
+      if ((*kind.*counts)()) kind->add_jacobian({still, nullptr}, sink);
     return m.dense();
   };
   Linear out{assembled(0, 1), assembled(1, 0), {}, {}, {}};
-  balance(still, out);
+  balance(still, counts, out);
   if (joints_.count() == 0) return out;
   BlockMatrix curvature(pattern_);
   joints_.add_curvature(still, out.multipliers, 1, curvature);
@@ -249,11 +249,11 @@ Model::Linear Model::linear_at(const State& still) const {
 }
 
 // F = Gᵀλ + what is left, the least in the metric of M⁻¹, in which newtons and newton metres compare.
-void Model::balance(const State& still, Linear& out) const {
+void Model::balance(const State& still, Counts counts, Linear& out) const {
   out.unbalanced = Eigen::VectorXd::Zero(modes());
   LoadSink sink(out.unbalanced);
   for (const auto& kind : forces_)
-    if (kind->linear_at_rest()) kind->add_load({still, nullptr}, sink);
+    if ((*kind.*counts)()) kind->add_load({still, nullptr}, sink);
   for (int m = 0; m < modes(); ++m)
     if (!is_free(m)) out.unbalanced[m] = 0;
   out.constraints.resize(0, modes());

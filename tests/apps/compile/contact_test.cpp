@@ -119,5 +119,102 @@ TEST(ContactInAScene, KeepsFiveModulesApartInSteepWaves) {
   EXPECT_LT(std::abs(residual), 4e-3 * turnover);
 }
 
+/// A block of 2 kg on four rough pads, pushed by up to 10 N askew.
+std::string pushed_block(const std::string& accuracy) {
+  return R"(schema = 1
+[water]
+density = "1000 kg/m^3"
+depth = "10 m"
+[[body]]
+name = "a"
+mass = "2 kg"
+centre_of_gravity = "(0, 0, 0) m"
+inertia = "(1, 1, 1) kg m^2"
+weight = true
+[[load]]
+on = "a"
+force = "(6, 8, 0) N"
+ramp_up = "10 s"
+[[contact]]
+name = "g"
+between = ["a", "ground"]
+kind = "plane"
+points = "(±0.3, ±0.3, 0) m"
+at = "(0, 0, 0) m"
+normal = "z"
+restitution = 0
+friction = 0.3
+[ask]
+run = { duration = "14 s", every = "0.05 s", of = ["a.surge", "a.sway"] }
+accuracy = )" +
+         accuracy + "\n";
+}
+
+// The neighbour of a body that lies on something is moved in its velocities alone: moved into the floor it was refused,
+// as shapes that overlap where the run starts.
+TEST(ContactInAScene, ABlockThatRestsIsJudgedByANeighbourThatRestsToo) {
+  const froude::Run run = simulate(scene::parse(pushed_block("1e-2"), "scene.toml"));
+  ASSERT_TRUE(run.stopped.empty()) << run.stopped;
+  // It slips from μmg = 5.886 N at 5.886 s on, with (t − 5.886)/2 m/s² until 10 s and 2.057 m/s² for 4 s more.
+  constexpr double friction = 0.3 * 2 * 9.81, rising = 10 - friction, after = 4;
+  const double way = rising * rising * rising / 12 + rising * rising / 4 * after + rising / 2 * after * after / 2;
+  EXPECT_NEAR(run.signal("a.surge").back(), 0.6 * way, 1e-2 * 0.6 * way);  // the accuracy asked
+  EXPECT_NEAR(run.signal("a.sway").back(), 0.8 * way, 1e-2 * 0.8 * way);
+}
+
+/// A ball of 1 kg falls a metre on a table that a rig moves up and down.
+std::string driven_table(const std::string& duration, const std::string& step) {
+  return R"(schema = 1
+[water]
+density = "1000 kg/m^3"
+depth = "10 m"
+[[body]]
+name = "t"
+mass = "5 kg"
+centre_of_gravity = "(0, 0, 0) m"
+inertia = "(1, 1, 1) kg m^2"
+[[body]]
+name = "b"
+position = "(0, 0, 1) m"
+mass = "1 kg"
+centre_of_gravity = "(0, 0, 0) m"
+inertia = "(1, 1, 1) kg m^2"
+weight = true
+[[joint]]
+name = "rig"
+kind = "slider"
+between = ["ground", "t"]
+at = "(0, 0, 0) m"
+axis = "z"
+prescribed = { amplitude = "0.2 m", period = "1.7 s" }
+[[contact]]
+name = "c"
+between = ["b", "t"]
+kind = "plane"
+points = "(0, 0, 0) m"
+at = "(0, 0, 0) m"
+normal = "z"
+restitution = 0.6
+[ask]
+run = { duration = ")" +
+         duration + R"(", every = "0.05 s", of = ["b.heave", "t.heave", "c.impacts"] }
+[solve]
+step = ")" +
+         step + "\"\n";
+}
+
+// In a blow the rig works by its impulse times the speed of the table. The residual is what the trapezium rule leaves
+// of the rig's power, of order 2; without that work it was 0.4 J at the first blow, some 2 % whatever the step.
+TEST(ContactInAScene, ADrivenTableWorksInABlow) {
+  const auto residual = [](const std::string& duration, const std::string& step) {
+    const froude::Run run = simulate(parse(driven_table(duration, step)));
+    EXPECT_TRUE(run.stopped.empty()) << run.stopped;
+    EXPECT_GE(run.signal("c.impacts").back(), 1);
+    return run.relative_residual();
+  };
+  EXPECT_LT(residual("0.6 s", "0.01 s"), 1e-3);
+  EXPECT_LT(residual("6 s", "0.001 s"), 1e-2);  // thirty blows and what ends their series
+}
+
 }  // namespace
 }  // namespace contact_test

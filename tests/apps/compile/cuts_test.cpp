@@ -215,6 +215,44 @@ TEST(Cuts, TheErrorOfGivenPiecesOfAPileIsThatOfItsDepthIntegral) {
   }
 }
 
+/// A pole that dips into still water at 3 m/s, askew, as a heavy body takes it along: impacts, one a piece.
+std::string dipping_pole(int pieces) {
+  return "schema = 1\n[water]\ndensity = \"1000 kg/m^3\"\ndepth = \"infinite\"\n"
+         "[[body]]\nname = \"b\"\nmass = \"1e9 kg\"\ncentre_of_gravity = \"(0, 0, 0) m\"\n"
+         "radii_of_gyration = \"(5, 5, 5) m\"\nposition = \"(0, 0, 0.3) m\"\n"
+         "initial_velocity = { heave = \"-3 m/s\" }\nfree = [\"heave\"]\n"
+         "[[member]]\nname = \"p\"\non = \"b\"\nfrom = \"(-1, 0, 0) m\"\nto = \"(1, 0, 0.5) m\"\n"
+         "diameter = \"0.5 m\"\nloads = true\n" +
+         fmt::format("slamming = {{ model = \"goda\", begins = \"submerged\", pieces = {} }}\n", pieces) +
+         "[ask]\nrun = { duration = \"0.6 s\", every = \"0.005 s\", of = [\"p.slamming_force_*\", "
+         "\"p.slamming_moment_*\"] }\n"
+         "accuracy = 2e-2\n";
+}
+
+TEST(Cuts, TheStepIsRefinedIntoWhatGivenPiecesLeaveOfTheAccuracy) {
+  const auto fine = simulate(parse(dipping_pole(300)));
+  const std::size_t worst = fine.error.worst();
+  EXPECT_GT(told(fine, "pieces")[worst], 0.5 * 2e-2);  // no small part of what is asked
+  EXPECT_LE(fine.error.total(worst), 2e-2);
+  EXPECT_THAT(fine.warnings(), IsEmpty());
+  // A hundred leave nothing: no step mends that.
+  const auto coarse = simulate(parse(dipping_pole(100)));
+  EXPECT_GT(told(coarse, "pieces")[coarse.error.worst()], 2e-2);
+  EXPECT_THAT(coarse.warnings(), ElementsAre(HasSubstr("most of it from the pieces that the scene gives")));
+}
+
+TEST(Cuts, AWarningNamesWhatTheSceneGivesAndNoStepThatItDoesNot) {
+  froude::Run run;
+  run.signals = {{"x", "m", "", {0, 1}}};
+  run.error = {.asked = 2e-2,
+               .sources = {{.name = "step", .how = "", .of_signal = {0.018}, .given = false},
+                           {.name = "pieces", .how = "", .of_signal = {0.014}, .given = true}}};
+  EXPECT_THAT(run.warnings(), ElementsAre(AllOf(HasSubstr("0.014 of it from the pieces that the scene gives"),
+                                                Not(HasSubstr("step")))));
+  run.error.sources[0].given = true;
+  EXPECT_THAT(run.warnings(), ElementsAre(HasSubstr("most of it from the step that the scene gives")));
+}
+
 TEST(Cuts, PiecesThatTheProgramChoosesAreWithinHalfOfWhatIsAsked) {
   for (const char* load : {"cd = 0, ca = 1", "cd = 50, ca = 0"})
     for (const double asked : {1e-1, 1e-2}) {

@@ -55,6 +55,15 @@ TEST(LineLoads, LetABobGoWhoseEnergyIsThenItsOwn) {
   EXPECT_NEAR(run.signal("energy.p.residual").back(), 0, 1e-9);
 }
 
+// What a residual is held against is seen at each step, not at samples alone.
+TEST(LineLoads, TurnOverAsMuchHoweverRarelyTheyAreKept) {
+  std::string rarely = bob("until = \"1 s\"\n");
+  const auto often = simulate(parse(rarely));
+  rarely.replace(rarely.find("0.02 s"), 6, "2 s");
+  EXPECT_DOUBLE_EQ(simulate(parse(rarely)).turnover(), often.turnover());
+  EXPECT_GT(often.turnover(), 0.1);  // J
+}
+
 TEST(LineLoads, AreSuppliedWhereTheyMoveANode) {
   const auto run =
       simulate(parse(bob("from = \"0.317 s\"\nramp_up = \"1.2 s\"\nuntil = \"2.5 s\"\nramp_down = \"1 s\"\n")));
@@ -186,6 +195,21 @@ TEST(BodyLoads, PushASledgeByTheirImpulse) {
   EXPECT_NEAR((x[last] - x[last - 50]) / 1.0, velocity, 1e-4);
   EXPECT_NEAR(run.signal("energy.load.supplied").back(), velocity * velocity, 5e-4);
   EXPECT_EQ(x[15], 0) << "at 0.3 s nothing has begun";
+}
+
+// 20 N on a mooring of 100 N/m, let go after 5 s: what acts at t = 0 acts on the rest before, too.
+TEST(BodyLoads, ThatEndLaterHoldTheEquilibriumThatARunStartsIn) {
+  const auto run = simulate(
+      parse(water +
+            "[[body]]\nname = \"b\"\nmass = \"30 kg\"\ncentre_of_gravity = \"(0, 0, 0) m\"\nfree = [\"surge\"]\n"
+            "[[mooring]]\non = \"b\"\nkind = \"linear\"\nstiffness = { surge = \"100 N/m\" }\n"
+            "[[load]]\non = \"b\"\nforce = \"(20, 0, 0) N\"\nuntil = \"5 s\"\nramp_down = \"0.5 s\"\n"
+            "[[load]]\non = \"b\"\nforce = \"(7, 0, 0) N\"\nfrom = \"8 s\"\nramp_up = \"0.5 s\"\n"
+            "[ask]\nrun = { start = \"equilibrium\", duration = \"10 s\", every = \"0.5 s\", of = [\"b.surge\"] }\n"
+            "[solve]\nstep = \"0.02 s\"\n"));
+  const auto& x = run.signal("b.surge");
+  for (std::size_t i = 0; run.time[i] <= 5; ++i) EXPECT_NEAR(x[i], 0.2, 1e-6) << run.time[i];  // 1e-9 of the weight
+  EXPECT_LT(*std::min_element(x.begin(), x.end()), -0.1) << "let go it swings";
 }
 
 // A motion without beginning has no time at which a load begins.

@@ -25,6 +25,7 @@ class ConstantLoadKind final : public ForceKind {
   EnergyFlow energy(const Instant& now) const override;
   /// Where none of them rises or falls.
   bool linear_at_rest() const override;
+  bool acts_before_runs() const override { return true; }
   /// The shortest ramp among its elements, s; ∞: none rises or falls.
   double shortest_ramp() const;
 

@@ -38,8 +38,9 @@ class ContactMemory final : public Memory {
   explicit ContactMemory(std::size_t count) : contact(count) {}
   void accept(const State&) override {}  // an integrator changes it where an event is
   bool can_be_kept() const override { return true; }
-  void keep_state(hydro::StateBytes& bytes) override { bytes.pass(contact); }
+  void keep_state(hydro::StateBytes& bytes) override { bytes.pass(contact, supplied_by_joints); }
   std::vector<ContactState> contact;
+  double supplied_by_joints = 0;  ///< J, by the impulses of joints with a prescribed motion in impacts, since the start
 };
 
 /// The set-valued law of a kind of force, ForceKind::contact(), whose memory is a ContactMemory: the geometry of its

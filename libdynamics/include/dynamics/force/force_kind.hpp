@@ -153,6 +153,8 @@ class ForceKind {
   /// True if the load is, for small motions about rest, stiffness and damping that a frequency-domain analysis takes
   /// from add_jacobian(). Excitation and radiation have their own place there; quadratic drag has none.
   virtual bool linear_at_rest() const { return false; }
+  /// True if it is counted, as it is at the time of the state, where bodies come to rest before a run.
+  virtual bool acts_before_runs() const { return linear_at_rest(); }
 
   /// What its elements tell of themselves, called after them: forces, strokes, powers. Energies belong to the ledger.
   virtual std::vector<Signal> signals() const { return {}; }

@@ -10,7 +10,7 @@
 namespace dynamics {
 
 /// One entry for each kind of force, and "joint.prescribed" where joints have a prescribed motion: they work by their
-/// multipliers (D31). Kinetic + stored = initial + ∫(supplied − dissipated) dt + residual (D12). Powers are integrated
+/// multipliers (D31), and in impacts by impulses. Kinetic + stored = initial + ∫(supplied − dissipated) dt + residual (D12). Powers are integrated
 /// by the trapezium rule over the steps, so the residual holds the error of the step as well as of the loads.
 class EnergyLedger {
  public:
@@ -30,7 +30,7 @@ class EnergyLedger {
 
   /// Its sums: taken up, or given back to a ledger of the same model.
   void keep_state(hydro::StateBytes& bytes) {
-    bytes.pass(entries_, before_, stored_at_start_, kinetic_, initial_, time_, turnover_);
+    bytes.pass(entries_, before_, stored_at_start_, kinetic_, initial_, time_, turnover_, in_impacts_);
   }
 
   double kinetic() const { return kinetic_; }
@@ -51,6 +51,7 @@ class EnergyLedger {
   std::vector<double> stored_at_start_;
   Eigen::VectorXd momentum_;  // room for kinetic energies
   double kinetic_ = 0, initial_ = 0, time_ = 0, turnover_ = 0;
+  double in_impacts_ = 0;  // J, that prescribed motions have supplied by impulses, as far as it is noted
 };
 
 }  // namespace dynamics

@@ -11,5 +11,7 @@ namespace dynamics {
 ///
 /// \throws hydro::InputError naming the mode that is driven on and on, or the worst equation
 State equilibrium(const Model& model, State start);
+/// The same before a run: with loads that end later as they act at the time of `start`.
+State equilibrium_before_run(const Model& model, State start);
 
 }  // namespace dynamics

@@ -69,7 +69,9 @@ class Model {
   };
   Linear linear_at_rest() const { return linear_at(rest_state(bodies_)); }
   /// The same about any state without velocities: `multipliers` balance what they can there.
-  Linear linear_at(const State& still) const;
+  Linear linear_at(const State& still) const { return linear_of(still, &ForceKind::linear_at_rest); }
+  /// The same of the kinds that act before a run begins, and as they act at the time of `still`.
+  Linear linear_before_runs(const State& still) const { return linear_of(still, &ForceKind::acts_before_runs); }
   /// What its elements tell: motions of bodies, then each kind of force, then joints. For as long as the model stays
   /// where it is.
   std::vector<Signal> signals() const;
@@ -86,7 +88,9 @@ class Model {
 
   void add_slopes(const State& state, double c_v, double c_q, Workspace& workspace, BlockMatrix& out) const;
   void leave_out_redundant(const Eigen::VectorXd& scale);
-  void balance(const State& still, Linear& out) const;
+  using Counts = bool (ForceKind::*)() const;
+  Linear linear_of(const State& still, Counts counts) const;
+  void balance(const State& still, Counts counts, Linear& out) const;
 };
 
 /// Everything of a run that changes.
