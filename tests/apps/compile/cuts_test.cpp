@@ -244,9 +244,9 @@ TEST(Cuts, TheStepIsRefinedIntoWhatGivenPiecesLeaveOfTheAccuracy) {
 TEST(Cuts, AWarningNamesWhatTheSceneGivesAndNoStepThatItDoesNot) {
   froude::Run run;
   run.signals = {{"x", "m", "", {0, 1}}};
-  run.error = {.asked = 2e-2,
-               .sources = {{.name = "step", .how = "", .of_signal = {0.018}, .given = false},
-                           {.name = "pieces", .how = "", .of_signal = {0.014}, .given = true}}};
+  run.error.asked = 2e-2;
+  run.error.sources = {{.name = "step", .how = "", .of_signal = {0.018}, .given = false},
+                       {.name = "pieces", .how = "", .of_signal = {0.014}, .given = true}};
   EXPECT_THAT(run.warnings(), ElementsAre(AllOf(HasSubstr("0.014 of it from the pieces that the scene gives"),
                                                 Not(HasSubstr("step")))));
   run.error.sources[0].given = true;

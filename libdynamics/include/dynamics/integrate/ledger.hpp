@@ -10,8 +10,9 @@
 namespace dynamics {
 
 /// One entry for each kind of force, and "joint.prescribed" where joints have a prescribed motion: they work by their
-/// multipliers (D31), and in impacts by impulses. Kinetic + stored = initial + ∫(supplied − dissipated) dt + residual (D12). Powers are integrated
-/// by the trapezium rule over the steps, so the residual holds the error of the step as well as of the loads.
+/// multipliers (D31), and in impacts by impulses. Kinetic + stored = initial + ∫(supplied − dissipated) dt + residual
+/// (D12). Powers are integrated by the trapezium rule over the steps, so the residual holds the error of the step as
+/// well as of the loads.
 class EnergyLedger {
  public:
   struct Entry {
