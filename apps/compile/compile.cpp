@@ -145,7 +145,8 @@ void require_still_water(const Scene& scene, std::string_view what) {
 namespace {
 
 /// Where bodies float so much deeper or higher than the water line of their matrix that its roll or pitch is off by
-/// more than the accuracy asked: a wall-sided hull has ½ C₃₃ s² more of both, s being how far it has gone.
+/// more than the accuracy asked: with upright sides both have C₃₃ s (r + s/2) more, s deeper with the centre of gravity
+/// r below the water line at rest (D156).
 void note_other_waterlines(const dynamics::Model& model, const dynamics::State& still, double accuracy,
                            std::vector<std::string>& notes) {
   for (const auto& kind : model.forces()) {
@@ -153,13 +154,14 @@ void note_other_waterlines(const dynamics::Model& model, const dynamics::State& 
     if (!hydrostatics) continue;
     for (const dynamics::Hydrostatics& e : hydrostatics->all()) {
       const dynamics::RigidBody& body = model.bodies()[static_cast<std::size_t>(e.body)];
-      const double s = still.pose[static_cast<std::size_t>(e.body)].centre.z() - body.rest_centre().z(),
-                   more = 0.5 * e.stiffness(0, 0) * s * s, least = e.stiffness.diagonal().tail<2>().minCoeff();
-      if (least <= 0 || more <= accuracy * least) continue;
-      notes.push_back(fmt::format(
-          "{} balances {:.3g} m {} the water line that its restoring matrix is for; with upright sides it has {:.2g} % "
-          "more stiffness in roll or pitch there: [body.buoyancy] takes the hull as it floats",
-          body.name(), std::abs(s), s < 0 ? "below" : "above", 100 * more / least));
+      const double r = -body.rest_centre().z(), s = -r - still.pose[static_cast<std::size_t>(e.body)].centre.z(),
+                   more = e.stiffness(0, 0) * s * (r + s / 2), least = e.stiffness.diagonal().tail<2>().minCoeff();
+      if (least <= 0 || std::abs(more) <= accuracy * least) continue;
+      notes.push_back(
+          fmt::format("{} balances {:.3g} m {} the water line that its restoring matrix is for; with upright sides its "
+                      "stiffness in roll or pitch is {:.2g} % {} there: [body.buoyancy] takes the hull as it floats",
+                      body.name(), std::abs(s), s > 0 ? "below" : "above", 100 * std::abs(more) / least,
+                      more > 0 ? "more" : "less"));
     }
   }
 }

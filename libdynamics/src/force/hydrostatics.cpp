@@ -36,17 +36,14 @@ Tilt tilt_of(const Pose& pose) {
   return {up, {up.y(), -up.x()}, tilt_scale(up.z())};
 }
 
-/// Rise and tilt, and the slopes of the potential over them. The rise is that of the point at still water above or
-/// below the centre of gravity, `to_water` from it: there what a body is pushed under more displaces water.
+/// Rise of the centre of gravity and tilt, and the slopes of the potential over them.
 struct Displaced {
   Tilt tilt;
-  double to_water;
   Vector3d s, slope;
 
   /// ∂s/∂up.
   Matrix3d by_up() const {
     Matrix3d out = Matrix3d::Zero();
-    out(0, 2) = to_water;
     out.bottomRows<2>() = tilt.slope();
     return out;
   }
@@ -56,12 +53,11 @@ struct Displaced {
 
 Displaced displaced(const Hydrostatics& e, double rest_height, const Pose& pose) {
   const Tilt tilt = tilt_of(pose);
-  const double to_water = -rest_height;
   Vector3d s;
-  s << pose.centre.z() - rest_height + to_water * (tilt.up.z() - 1), tilt.vector();
+  s << pose.centre.z() - rest_height, tilt.vector();
   Vector3d slope = e.stiffness * s;
   slope.tail<2>() -= e.moment;
-  return {tilt, to_water, s, slope};
+  return {tilt, s, slope};
 }
 
 /// ∂(∂V/∂up)/∂up at constant slopes of the potential.

@@ -63,14 +63,6 @@ TEST(Hydrostatics, AreThoseOfTheMatrixForSmallMotions) {
   EXPECT_LT((found.segment<3>(2) - expected).norm(), small * expected.norm());
 }
 
-// What a body is pushed under more displaces water at the still surface, 0.6 m above the centre of gravity, and not
-// there.
-TEST(Hydrostatics, HoldABodyThatIsPushedUnderAtTheSurface) {
-  constexpr double sunk = 0.5, lean = 1e-6;
-  const Hydrostatics e{.body = 0, .stiffness = Vector3d(4e5, 2.6e5, 2e6).asDiagonal()};
-  EXPECT_NEAR(load(e, 0, {lean, 0, 0}, -sunk)(3) / lean, -(2.6e5 + 4e5 * sunk * depth_of_g), 1.0);  // N m/rad
-}
-
 // Both ways of it, and their slopes, meet; and both are θ/sin θ.
 TEST(TiltScale, IsTheAngleOverItsSineWithItsSlopes) {
   for (const double angle : {1e-9, 1e-3, 0.3, 0.45103, 0.4512, 1.0, 2.5}) {
