@@ -14,8 +14,8 @@ using Linear = Model::Linear (Model::*)(const State&) const;
 /// Loads left over, and the displacements that Newton asks for, in motions scaled by the root of the bodies' masses.
 class Balance {
  public:
-  Balance(const Model& model, Linear linear)
-      : model_(model), linear_(linear), root_(model.dry_mass_at_rest().diagonal().cwiseSqrt()) {}
+  Balance(const Model& model, Linear of)
+      : model_(model), linear_(of), root_(model.dry_mass_at_rest().diagonal().cwiseSqrt()) {}
 
   Model::Linear linear(const State& state) const { return (model_.*linear_)(state); }
   Eigen::VectorXd unbalanced(const State& state) const {
