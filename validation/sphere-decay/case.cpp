@@ -65,7 +65,7 @@ double natural_period(const scene::Scene& scene) {
   const compile::Prepared p = compile::prepare(scene);
   double omega = 1.4;
   for (int i = 0; i < 50; ++i)
-    omega = std::sqrt(p.hydrostatics.front().stiffness(2, 2) /
+    omega = std::sqrt(p.hydrostatics.front().stiffness(0, 0) /
                       (p.bodies.front().mass() + p.groups.front().table.added_mass(omega)(2, 2)));
   return 2 * std::numbers::pi / omega;
 }
@@ -73,7 +73,7 @@ double natural_period(const scene::Scene& scene) {
 /// What another code's decay tells of the water, against the data that both were made with.
 void add_fitted_memory(const scene::Scene& scene, const Curve& curve, std::vector<Number>& numbers) {
   const compile::Prepared p = compile::prepare(scene);
-  const double mass = p.bodies.front().mass(), stiffness = p.hydrostatics.front().stiffness(2, 2);
+  const double mass = p.bodies.front().mass(), stiffness = p.hydrostatics.front().stiffness(0, 0);
   const auto& table = p.groups.front().table;
   const auto n = static_cast<Eigen::Index>(curve.heave.size());
   const std::vector<fit::Window> record{{(curve.time.back() - curve.time.front()) / static_cast<double>(n - 1),

@@ -437,7 +437,8 @@ class ByHand {
     M_ = chosen.A_inf;
     M_.topLeftCorner<3, 3>() += p.bodies.front().mass() * Eigen::Matrix3d::Identity();
     M_.bottomRightCorner<3, 3>() += p.bodies.front().inertia();
-    C_ = p.hydrostatics.front().stiffness;
+    C_.setZero();
+    C_.block<3, 3>(2, 2) = p.hydrostatics.front().stiffness;
     now_ = memory_->instantaneous(1 - of_.alpha_f);
     lu_.compute((1 - of_.alpha_m) * M_ + (1 - of_.alpha_f) * (of_.beta * h_ * h_ * C_ + of_.gamma * h_ * now_));
   }
