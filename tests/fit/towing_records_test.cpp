@@ -89,15 +89,15 @@ TEST(TowingRecords, GiveTheNumbersOfTheTableWhoseNoiseTheyHave) {
 }
 
 /// A tow of 50 s whose force has noise of 1 N with this memory all the time, also in the rest before it, and a zero.
-fit::RawTow noisy(double cd, double memory_s, double rest_s, std::uint64_t seed) {
-  constexpr double speed = 0.8, step = 0.02;
-  const auto n = static_cast<std::size_t>((55 + rest_s) / step);
-  const auto noise = froude_test::ar1_noise(n, std::exp(-step / memory_s), 1, seed);
+fit::RawTow noisy(double cd, double memory_s, double rest_for_s, std::uint64_t seed) {
+  constexpr double speed = 0.8, between = 0.02;
+  const auto n = static_cast<std::size_t>((55 + rest_for_s) / between);
+  const auto noise = froude_test::ar1_noise(n, std::exp(-between / memory_s), 1, seed);
   fit::RawTow out;
   std::vector<double> force;
   for (std::size_t i = 0; i < n; ++i) {
-    const double t = step * static_cast<double>(i),
-                 u = speed * std::clamp((t - rest_s) / 2, 0.0, 1.0) * std::clamp((50 + rest_s - t) / 2, 0.0, 1.0);
+    const double t = between * static_cast<double>(i), u = speed * std::clamp((t - rest_for_s) / 2, 0.0, 1.0) *
+                                                           std::clamp((50 + rest_for_s - t) / 2, 0.0, 1.0);
     out.time.push_back(t);
     out.speed.push_back(u);
     force.push_back(0.5 * 997 * 0.06 * cd * u * u + 0.7 + noise[i]);

@@ -64,7 +64,7 @@ TEST(CommandedForce, JumpsWhereAnotherForceIsSetAndNotWhereTheSameLawIs) {
     out.velocity.segment<3>(6) = rate * axis;
     return out;
   };
-  const auto element = pto(JointKind::slider, {.lower = {}, .upper = {}});
+  const auto element = pto(JointKind::slider, {.line = {}, .lower = {}, .upper = {}});
   ASSERT_NEAR(pto_state(element, at(0.3, 0.2)).coordinate, 0.3, 1e-15);
   ASSERT_NEAR(pto_state(element, at(0.3, 0.2)).rate, 0.2, 1e-15);
   CommandMemory memory({element});

@@ -25,7 +25,6 @@ TiltScale tilt_scale(double cosine);
 
 class HydrostaticsKind final : public ForceKind {
  public:
-  /// The still water stands at z = 0.
   HydrostaticsKind(const std::vector<RigidBody>& bodies, std::vector<Hydrostatics> elements);
 
   const std::vector<Hydrostatics>& all() const { return elements_; }
