@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "bindings.hpp"
+#include "froude/outputs.hpp"
 
 namespace froude::python {
 namespace {
@@ -18,10 +19,7 @@ std::vector<std::size_t> shape_of(const FreeSurface& surface) { return {surface.
 /// Writes what is HDF5 under a name that says so. \throws hydro::InputError
 template <class Result>
 void write_result(const Result& result, const std::filesystem::path& file) {
-  if (file.extension() != ".h5" && file.extension() != ".nc")
-    throw hydro::InputError(
-        fmt::format("a result is HDF5, so its file cannot end in \"{}\"", file.extension().string()),
-        {.file = file.string()}, "end it in .h5 or .nc; froude.export makes tables of it");
+  require_result(file, "froude.export makes tables of it");
   result.write(file);
 }
 

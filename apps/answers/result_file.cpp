@@ -31,6 +31,15 @@ void describe(Hdf5Writer& file, const std::string& dataset, const std::string& u
   file.attribute(dataset, "long_name", long_name);
 }
 
+/// Real and imaginary part of each, one after the other.
+template <class Values>
+std::vector<double> real_and_imaginary(const Values& values) {
+  std::vector<double> out;
+  out.reserve(2 * static_cast<std::size_t>(values.size()));
+  for (const std::complex<double>& value : values) out.insert(out.end(), {value.real(), value.imag()});
+  return out;
+}
+
 void write_dimension(Hdf5Writer& file, const std::string& dataset, const std::vector<double>& values,
                      const std::string& units, const std::string& long_name) {
   file.write(dataset, values, {values.size()});
@@ -122,10 +131,7 @@ void write_rao(const std::filesystem::path& path, const std::vector<double>& ome
   for (std::size_t i = 0; i < signals.size(); ++i) {
     const ComplexSignal& signal = signals[i];
     const std::string dataset = root_path(signal.name);
-    std::vector<double> flat;
-    flat.reserve(2 * signal.values.size());
-    for (const auto& value : signal.values) flat.insert(flat.end(), {value.real(), value.imag()});
-    file.write(dataset, flat, shape);
+    file.write(dataset, real_and_imaginary(signal.values), shape);
     for (std::size_t d = 0; d < dimensions.size(); ++d) file.attach_dimension(dataset, d, dimensions[d]);
     describe(file, dataset, signal.units, signal.long_name);
     write_error(file, dataset, error, i);
@@ -134,11 +140,6 @@ void write_rao(const std::filesystem::path& path, const std::vector<double>& ome
 }
 
 void write_modes(const std::filesystem::path& path, const Modes& modes, const Provenance& provenance) {
-  const auto flat = [](const std::vector<std::complex<double>>& values) {
-    std::vector<double> out;
-    for (const auto& value : values) out.insert(out.end(), {value.real(), value.imag()});
-    return out;
-  };
   Hdf5Writer file(provenance.packing);
   write_provenance(file, modes_kind, provenance);
   file.attribute("/", "phase", "Re(damped_shape exp(s t))");
@@ -162,11 +163,11 @@ void write_modes(const std::filesystem::path& path, const Modes& modes, const Pr
   };
   write("/omega", modes.omega, {count}, {"/mode"}, "rad/s", "undamped angular frequency");
   write("/period", period, {count}, {"/mode"}, "s", "undamped period");
-  write("/s", flat(modes.s), {count, 2}, {"/mode", "/complex"}, "1/s", "eigenvalue of the damped motion");
+  write("/s", real_and_imaginary(modes.s), {count, 2}, {"/mode", "/complex"}, "1/s", "eigenvalue of the damped motion");
   write("/shape", modes.shape, {count, motions}, {"/mode", "/motion"}, "1",
         "undamped displacements about the centres of gravity, m and rad");
-  write("/damped_shape", flat(modes.damped_shape), {count, motions, 2}, {"/mode", "/motion", "/complex"}, "1",
-        "damped displacements about the centres of gravity, m and rad");
+  write("/damped_shape", real_and_imaginary(modes.damped_shape), {count, motions, 2}, {"/mode", "/motion", "/complex"},
+        "1", "damped displacements about the centres of gravity, m and rad");
   file.save(path);
 }
 
@@ -287,14 +288,14 @@ void write_corners(Hdf5Writer& file, const HullPressures& hulls) {
   describe(file, "/panel_corner", "m", "corners of the panel, global; not a number after its last");
 }
 
-void write_pressure(Hdf5Writer& file, const std::string& name, const Eigen::VectorXcd& values,
-                    const std::string& meaning) {
-  std::vector<double> flat;
-  for (const std::complex<double>& p : values) flat.insert(flat.end(), {p.real(), p.imag()});
-  file.write(name, flat, {static_cast<std::size_t>(values.size()), 2});
-  file.attach_dimension(name, 0, "/panel");
+/// Complex values along one dimension.
+template <class Values>
+void write_along(Hdf5Writer& file, const std::string& name, const Values& values, const std::string& dimension,
+                 const std::string& units, const std::string& meaning) {
+  file.write(name, real_and_imaginary(values), {static_cast<std::size_t>(values.size()), 2});
+  file.attach_dimension(name, 0, dimension);
   file.attach_dimension(name, 1, "/complex");
-  describe(file, name, "Pa/m", meaning + " per metre of wave amplitude");
+  describe(file, name, units, meaning);
 }
 
 void write_pressures(Hdf5Writer& file, const HullPressures& hulls) {
@@ -326,24 +327,17 @@ void write_pressures(Hdf5Writer& file, const HullPressures& hulls) {
       file, "/panel_normal", hulls, [](const WetPanel& p) -> const auto& { return p.normal; }, "1",
       "out of the body, of unit length");
   write_corners(file, hulls);
-  write_pressure(file, "/pressure", hulls.on.dynamic, "dynamic pressure at the centre of the panel");
-  write_pressure(file, "/hydrostatic_pressure", hulls.on.hydrostatic,
-                 "change of the hydrostatic pressure that the moving panel meets");
+  write_along(file, "/pressure", hulls.on.dynamic, "/panel", "Pa/m",
+              "dynamic pressure at the centre of the panel per metre of wave amplitude");
+  write_along(file, "/hydrostatic_pressure", hulls.on.hydrostatic, "/panel", "Pa/m",
+              "change of the hydrostatic pressure that the moving panel meets per metre of wave amplitude");
 }
 
 void write_far_field(Hdf5Writer& file, const FreeSurface& surface) {
   write_dimension(file, "/angle", surface.angle, "rad", "direction seen from the global origin, from +x towards +y");
-  const auto write = [&](const std::string& name, const std::vector<std::complex<double>>& values,
-                         const std::string& meaning) {
-    std::vector<double> flat;
-    for (const auto& value : values) flat.insert(flat.end(), {value.real(), value.imag()});
-    file.write(name, flat, {values.size(), 2});
-    file.attach_dimension(name, 0, "/angle");
-    file.attach_dimension(name, 1, "/complex");
-    describe(file, name, "m/m", meaning + ": A of A sqrt(2/(pi k r)) exp(-i (k r - pi/4)) per metre of wave amplitude");
-  };
-  write("/far_scattered", surface.far_scattered, "far away, of bodies held still");
-  write("/far_radiated", surface.far_radiated, "far away, of the motion of bodies");
+  const std::string law = ": A of A sqrt(2/(pi k r)) exp(-i (k r - pi/4)) per metre of wave amplitude";
+  write_along(file, "/far_scattered", surface.far_scattered, "/angle", "m/m", "far away, of bodies held still" + law);
+  write_along(file, "/far_radiated", surface.far_radiated, "/angle", "m/m", "far away, of the motion of bodies" + law);
 }
 
 void write_body_drift(Hdf5Writer& file, const FreeSurface& surface) {
@@ -394,9 +388,7 @@ void FreeSurface::write(const std::filesystem::path& path) const {
   write_mean("/power_sent_out", power_sent_out, "W/m^2", "mean power of scattered and radiated waves");
   for (const ComplexSignal& part : signals) {
     const std::string dataset = root_path(part.name);
-    std::vector<double> flat;
-    for (const auto& value : part.values) flat.insert(flat.end(), {value.real(), value.imag()});
-    file.write(dataset, flat, {y.size(), x.size(), 2});
+    file.write(dataset, real_and_imaginary(part.values), {y.size(), x.size(), 2});
     file.attach_dimension(dataset, 0, "/y");
     file.attach_dimension(dataset, 1, "/x");
     file.attach_dimension(dataset, 2, "/complex");

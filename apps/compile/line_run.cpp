@@ -23,7 +23,7 @@ void LineRun::begin() {
   looked_ = false;  // bodies may have been brought to their start meanwhile
 }
 
-/// After each step: what is turned over between two samples counts.
+/// After each step: energies between two samples count too.
 void LineRun::note_turnover() {
   const dl::Energies& e = energies();
   turnover_ = std::max(

@@ -114,13 +114,7 @@ Report report_of(const Extremes& e) {
     out.one_of("estimates", estimate(e, e.tail, e.above, p, "peaks over threshold"));
     out.one_of("estimates", estimate(e, e.blocks, e.maxima.size(), p, "block maxima"));
   }
-  constexpr double told = 0.01;  // thirteen samples a wave
-  if (e.missed > told)
-    out.sentences("cautions", "caution: {}",
-                  {fmt::format("samples miss {:.2g} % of the crests' height on average, and levels are too low by as "
-                               "much: sample twenty times a wave, or put a curve through the samples first, `froude "
-                               "prepare` with resample",
-                               100 * e.missed)});
+  out.sentences("cautions", "caution: {}", cautions_of_samples(e.missed, ", and levels are too low by as much"));
   if (e.duration > 10 * e.recorded)
     out.sentences("notes", "note: {}",
                   {fmt::format("{:.3g} times the record: far beyond what it holds, where the law "

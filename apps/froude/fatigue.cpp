@@ -59,14 +59,9 @@ Counted count(const FatigueArguments& a) {
 
 /// Ranges that are too short because crests lie between samples, and what that does to damage.
 std::vector<std::string> cautions_of(const Counted& c, const std::optional<SnOfUnit>& sn) {
-  constexpr double told = 0.01;  // of ranges: thirteen samples a wave
-  if (c.missed <= told) return {};
-  std::string out = fmt::format("samples miss {:.2g} % of the crests' height on average", 100 * c.missed);
-  if (sn)
-    out += fmt::format(", so that damage is about {:.2g} % too small",
-                       100 * (1 - std::pow(1 - c.missed, sn->curve.slope)));
-  return {out +
-          ": sample twenty times a wave, or put a curve through the samples first, `froude prepare` with resample"};
+  return cautions_of_samples(c.missed, sn ? fmt::format(", so that damage is about {:.2g} % too small",
+                                                        100 * (1 - std::pow(1 - c.missed, sn->curve.slope)))
+                                          : "");
 }
 
 Report report_of(const Counted& c, const std::optional<SnOfUnit>& sn) {

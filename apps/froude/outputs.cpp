@@ -78,6 +78,12 @@ void require_csv(const std::optional<Path>& table) {
                           {.file = table->string()}, "end it in .csv");
 }
 
+void require_result(const Path& file, const std::string& tables) {
+  if (file.extension() == ".h5" || file.extension() == ".nc") return;
+  throw hydro::InputError(fmt::format("a result is HDF5, so its file cannot end in \"{}\"", file.extension().string()),
+                          {.file = file.string()}, "end it in .h5 or .nc; " + tables);
+}
+
 void require_picture(const std::optional<Path>& picture) {
   if (picture) plot::require_picture(*picture);
 }

@@ -26,6 +26,9 @@ void require_outputs(const std::vector<NamedFile>& outputs, const std::vector<Na
 /// \throws hydro::InputError if a table that was asked for has another ending than .csv
 void require_csv(const std::optional<Path>& table);
 
+/// \throws hydro::InputError if the name of a result ends in anything but .h5 or .nc; `tables` says how to have tables
+void require_result(const Path& file, const std::string& tables);
+
 /// \throws hydro::InputError as plot::require_picture(), if one was asked for
 void require_picture(const std::optional<Path>& picture);
 

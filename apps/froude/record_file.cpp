@@ -60,6 +60,15 @@ RunResult read_record(const Path& path) {
                           {.file = path.string()}, "give a .csv with a header, or the .h5 of `froude run`");
 }
 
+std::vector<std::string> cautions_of_samples(double missed, const std::string& consequence) {
+  constexpr double told = 0.01;  // thirteen samples a wave
+  if (missed <= told) return {};
+  return {
+      fmt::format("samples miss {:.2g} % of the crests' height on average{}: sample twenty times a wave, or put a "
+                  "curve through the samples first, `froude prepare` with resample",
+                  100 * missed, consequence)};
+}
+
 void drop_before(RunResult& record, double from, const Path& file) {
   const auto first =
       std::lower_bound(record.time.begin(), record.time.end(), from - 1e-9 * std::abs(from)) - record.time.begin();

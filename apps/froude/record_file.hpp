@@ -12,6 +12,10 @@ namespace froude {
 /// \throws hydro::InputError
 RunResult read_record(const Path& path);
 
+/// Where samples miss more than 1 % of the height of crests on average (`missed`, of hs::missed_of_crests()), what that
+/// does: ", and levels are too low by as much". Empty where they do not.
+std::vector<std::string> cautions_of_samples(double missed, const std::string& consequence);
+
 /// Leaves out the samples before a time, s. \throws hydro::InputError if nothing is left
 void drop_before(RunResult& record, double from, const Path& file);
 

@@ -8,10 +8,7 @@ namespace froude {
 Path checked_output(const SceneArguments& arguments, const std::string& ending,
                     const std::vector<std::pair<std::string, std::optional<Path>>>& tables) {
   const Path file = arguments.output.value_or(arguments.scene.stem().string() + ending);
-  if (file.extension() != ".h5" && file.extension() != ".nc")
-    throw hydro::InputError(
-        fmt::format("a result is HDF5, so its file cannot end in \"{}\"", file.extension().string()),
-        {.file = file.string()}, "end it in .h5 or .nc; --csv FILE writes a table as well");
+  require_result(file, "--csv FILE writes a table as well");
   std::vector<std::pair<std::string, std::optional<Path>>> all = {
       {arguments.output ? "-o" : "the result", file}, {"--csv", arguments.csv}, {"--picture", arguments.picture}};
   all.insert(all.end(), tables.begin(), tables.end());
