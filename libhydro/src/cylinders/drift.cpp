@@ -94,6 +94,63 @@ double normal_part(const Local& at, double s, double density) {
   return density / 4 * (at.slope.squaredNorm() - s * std::norm(at.potential));
 }
 
+/// The wave that comes and all that the circles send out.
+class PassingWaves {
+ public:
+  PassingWaves(const std::vector<Cylinder>& circles, const VerticalModes& modes, const Channels& channels,
+               const Amplitudes& sent_out, const potential::FieldQuestion& question, const Water& water)
+      : circles_(circles),
+        modes_(modes),
+        channels_(channels),
+        at_(channels),
+        heading_(question.heading),
+        per_metre_(Complex(0, water.gravity / question.omega) / modes.wave_at_surface()),
+        b_(per_metre_ * sent_out.col(0) + sent_out.col(1) + Complex(0, 1) * sent_out.col(2)) {
+    for (const Cylinder& c : circles) scale_.push_back(radial_scales(modes, c.radius, channels));
+  }
+
+  /// By mode.
+  std::vector<Local> at(const Vector2d& place) const {
+    std::vector<Local> out(static_cast<std::size_t>(channels_.vertical()));
+    out[0] = incident(modes_.k, heading_, per_metre_, place);
+    for (std::size_t c = 0; c < circles_.size(); ++c) {
+      const Vector2d away = place - circles_[c].centre;
+      const int reach = modes_that_reach(modes_, away.norm() - circles_[c].radius, channels_.vertical());
+      for (int n = 0; n < reach; ++n) {
+        const auto mode = static_cast<std::size_t>(n);
+        const int M = channels_.order[mode];
+        const Local one =
+            sent_by(modes_, n, circles_[c].radius, scale_[c][mode], M, b_.segment(at_(c, n, -M), 2 * M + 1), away);
+        out[mode].potential += one.potential;
+        out[mode].slope += one.slope;
+      }
+    }
+    return out;
+  }
+
+ private:
+  const std::vector<Cylinder>& circles_;
+  const VerticalModes& modes_;
+  const Channels& channels_;
+  WaveIndex at_;
+  double heading_;
+  Complex per_metre_;
+  Eigen::VectorXcd b_;
+  std::vector<RadialScales> scale_;
+};
+
+/// What goes through a point, from the surface to the bed.
+Eigen::Vector3d through(const ControlPoint& point, const Vector2d& about, const std::vector<Local>& here,
+                        const VerticalModes& modes, double density) {
+  const double mass = density * modes.depth;
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (std::size_t n = 0; n < here.size(); ++n) {
+    const double s = n == 0 ? modes.k * modes.k : -modes.kappa[n - 1] * modes.kappa[n - 1];
+    sum += load_through(point, about, mass, here[n].slope, normal_part(here[n], s, mass));
+  }
+  return sum;
+}
+
 }  // namespace
 
 double nearest_counted(const std::vector<Cylinder>& circles) {
@@ -105,36 +162,15 @@ double nearest_counted(const std::vector<Cylinder>& circles) {
 potential::BodyDrift body_drift(const std::vector<Cylinder>& circles, const std::vector<CircleOwner>& owner,
                                 const VerticalModes& modes, const Channels& channels, const Amplitudes& sent_out,
                                 const potential::FieldQuestion& question, const Water& water, int threads) {
-  const WaveIndex at(channels);
-  const Complex per_metre = Complex(0, water.gravity / question.omega) / modes.wave_at_surface();
-  const Eigen::VectorXcd b = per_metre * sent_out.col(0) + sent_out.col(1) + Complex(0, 1) * sent_out.col(2);
-  std::vector<RadialScales> scale;
-  for (const Cylinder& c : circles) scale.push_back(radial_scales(modes, c.radius, channels));
-
-  const auto load_on = [&](std::size_t of) {
+  const PassingWaves waves(circles, modes, channels, sent_out, question, water);
+  Eigen::MatrixX3d of_circle = Eigen::MatrixX3d::Zero(static_cast<Index>(circles.size()), 3);
+  in_parallel(circles.size(), threads, [&](std::size_t of) {
     const double radius = circles[of].radius + distance_counted(circles, of);
-    Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
-    for (const ControlPoint& point :
-         potential::circle(circles[of].centre, radius, points_counted(circles, of, modes.k, channels.highest_order())))
-      for (int n = 0; n < channels.vertical(); ++n) {
-        Local here = n == 0 ? incident(modes.k, question.heading, per_metre, point.at) : Local{};
-        const int M = channels.order[static_cast<std::size_t>(n)];
-        for (std::size_t c = 0; c < circles.size(); ++c) {
-          const Vector2d away = point.at - circles[c].centre;
-          if (n >= modes_that_reach(modes, away.norm() - circles[c].radius, channels.vertical())) continue;
-          const Local one = sent_by(modes, n, circles[c].radius, scale[c][static_cast<std::size_t>(n)], M,
-                                    b.segment(at(c, n, -M), 2 * M + 1), away);
-          here.potential += one.potential;
-          here.slope += one.slope;
-        }
-        const double kappa = n == 0 ? 0 : modes.kappa[static_cast<std::size_t>(n - 1)];
-        const double s = n == 0 ? modes.k * modes.k : -kappa * kappa, mass = water.density * modes.depth;
-        sum += load_through(point, owner[of].about, mass, here.slope, normal_part(here, s, mass)).transpose();
-      }
-    return sum;
-  };
-  Eigen::MatrixX3d of_circle(static_cast<Index>(circles.size()), 3);
-  in_parallel(circles.size(), threads, [&](std::size_t c) { of_circle.row(static_cast<Index>(c)) = load_on(c); });
+    const int points = points_counted(circles, of, modes.k, channels.highest_order());
+    for (const ControlPoint& point : potential::circle(circles[of].centre, radius, points))
+      of_circle.row(static_cast<Index>(of)) +=
+          through(point, owner[of].about, waves.at(point.at), modes, water.density).transpose();
+  });
 
   potential::BodyDrift out{.load = Eigen::MatrixX3d::Zero(question.motion.size() / 6, 3)};
   for (std::size_t c = 0; c < circles.size(); ++c) {

@@ -8,7 +8,6 @@
 #include <boost/geometry/geometries/polygon.hpp>
 #include <boost/geometry/strategies/strategies.hpp>
 #include <cmath>
-#include <limits>
 
 #include "hydro/base/error.hpp"
 #include "hydro/base/parallel.hpp"

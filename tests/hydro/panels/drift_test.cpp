@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "hulls.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/cylinders/field.hpp"
 #include "hydro/hydrostatics/shape_meshes.hpp"
@@ -16,11 +17,6 @@ using hydrostatics::box_mesh, hydrostatics::cylinder_mesh;
 using potential::BodyDrift, potential::FieldQuestion, potential::WaveField;
 
 const Water tank{.density = 1000, .gravity = 9.81, .depth = WaterDepth::from_metres(3)};
-
-HullBody body(std::string name, hydrostatics::TriangleMesh mesh, const Vector3d& at) {
-  for (Vector3d& v : mesh.vertices) v += at;
-  return {std::move(name), at, {}, hydrostatics::Hull(std::move(mesh))};
-}
 
 /// In a wave of 2.3 rad/s that goes to 40 degrees, moving in all modes.
 FieldQuestion asked(std::size_t bodies) {

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "hulls.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/cylinders/field.hpp"
 #include "hydro/hydrostatics/shape_meshes.hpp"
@@ -18,11 +19,6 @@ using hydrostatics::box_mesh, hydrostatics::cylinder_mesh;
 using potential::FieldQuestion, potential::WaveField;
 
 const Water tank{.density = 1000, .gravity = 9.81, .depth = WaterDepth::from_metres(3)};
-
-HullBody body(std::string name, hydrostatics::TriangleMesh mesh, const Vector3d& at) {
-  for (Vector3d& v : mesh.vertices) v += at;
-  return {std::move(name), at, {}, hydrostatics::Hull(std::move(mesh))};
-}
 
 /// Points about the origin, in a wave of 2.3 rad/s that goes to 40 degrees.
 FieldQuestion about_origin(double radius, std::size_t bodies) {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "hulls.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/hydrostatics/shape_meshes.hpp"
 #include "hydro/panels/field.hpp"
@@ -22,11 +23,6 @@ using hydrostatics::box_mesh, hydrostatics::cylinder_mesh;
 using potential::FieldQuestion, potential::HullPressure, potential::WetPanel;
 
 const Water tank{.density = 1000, .gravity = 9.81, .depth = WaterDepth::from_metres(3)};
-
-HullBody body(std::string name, hydrostatics::TriangleMesh mesh, const Vector3d& at) {
-  for (Vector3d& v : mesh.vertices) v += at;
-  return {std::move(name), at, {}, hydrostatics::Hull(std::move(mesh))};
-}
 
 /// Bodies held still, a wave, and one point far from all of them.
 FieldQuestion held(double omega, double heading, std::size_t bodies) {
