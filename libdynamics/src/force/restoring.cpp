@@ -45,25 +45,18 @@ Matrix6 stiffness_at(const Restoring& e, const Vector6& d) {
   return K;
 }
 
-/// Displacement or velocity of the point from that of the centre of gravity, for small turns.
-Matrix6 to_point(const Vector3d& arm) {
-  Matrix6 out = Matrix6::Identity();
-  out.topRightCorner<3, 3>() = -cross_matrix(arm);
-  return out;
-}
-
 /// ∂load/∂(displacement of the centre of gravity and small global rotation), about it: the arm turns with the body, and
 /// with it the point's velocity.
 Matrix6 by_displacement(const Restoring& e, const AtPoint& at) {
   Matrix6 velocity = Matrix6::Zero();  // of the point, by the turn of its arm
   velocity.topRightCorner<3, 3>() = -cross_matrix(at.velocity.tail<3>()) * cross_matrix(at.arm);
-  Matrix6 K = seen_from<6>(stiffness_at(e, at.displacement) * to_point(at.arm) - e.damping * velocity, at.arm);
+  Matrix6 K = seen_from<6>(stiffness_at(e, at.displacement) * shift_from_centre(at.arm) - e.damping * velocity, at.arm);
   K.bottomRightCorner<3, 3>() += cross_matrix(at.load.head<3>()) * cross_matrix(at.arm);
   return K;
 }
 
 Matrix6 by_velocity(const Restoring& e, const AtPoint& at) {
-  return seen_from<6>(-e.damping * to_point(at.arm), at.arm);
+  return seen_from<6>(-e.damping * shift_from_centre(at.arm), at.arm);
 }
 
 /// The arm from the body's origin to its centre of gravity.
