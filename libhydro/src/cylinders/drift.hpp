@@ -8,6 +8,7 @@
 #include "array.hpp"
 #include "hydro/potential/body_drift.hpp"
 #include "hydro/potential/wave_field.hpp"
+#include "lattice.hpp"
 
 namespace hydro::cylinders {
 

@@ -1,5 +1,8 @@
 #include "panels/drift.hpp"
 
+// Boost's geometry includes a header that Boost itself calls deprecated, and would say so at each build.
+#define BOOST_ALLOW_DEPRECATED_HEADERS
+
 #include <algorithm>
 #include <boost/geometry/algorithms/convex_hull.hpp>
 #include <boost/geometry/algorithms/distance.hpp>
@@ -14,6 +17,7 @@
 #include "hydro/waves/dispersion.hpp"
 #include "potential/control_surface.hpp"
 #include "surface.hpp"
+#include "waves/gauss_legendre.hpp"
 
 namespace hydro::panels {
 namespace {
