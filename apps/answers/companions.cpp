@@ -394,7 +394,7 @@ Run Companions::interrupted(int level) {
   if (!runs_.contains(level)) runs_.emplace(level, made(level, {}));  // which ends after a step
   Run out = take(level);
   if (out.stopped.empty()) out.stopped = sentence(*interruption_) + " before the error was estimated";
-  out.error = unknown_error(scene_, sentence(*interruption_));
+  set_error(out, unknown_error(scene_, sentence(*interruption_)));
   return out;
 }
 

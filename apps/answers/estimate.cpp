@@ -264,7 +264,7 @@ class Refinement {
         if (source.of_signal[i] > worst) worst = source.of_signal[signal = i];
     if (worst <= share * scene_.accuracy) return 1;
     if (companions_.refined_pieces() >= most)
-      refuse(level, signal, worst,
+      refuse(level, signal, worst, share * scene_.accuracy,
              fmt::format("the pieces of members stand in the way: {} times as many do not do", most), less_accuracy);
     const double wanted = std::min(std::ceil(worst / (share * scene_.accuracy)), 1.0 * most_more);
     return static_cast<int>(std::bit_ceil(static_cast<unsigned>(wanted)));
@@ -337,19 +337,23 @@ class Refinement {
     return out;
   }
 
-  [[noreturn]] void refuse(int level, std::size_t signal, double error, const std::string& why,
+  /// `allowed`: what of the accuracy is left for the source of the error.
+  [[noreturn]] void refuse(int level, std::size_t signal, double error, double allowed, const std::string& why,
                            const std::string& remedy) const {
+    const bool shared = allowed < scene_.accuracy;
     throw hydro::InputError(
-        fmt::format("an accuracy of {:.2g} is asked for, but {} is off by an estimated {:.2g} of its rms, standard "
+        fmt::format("an accuracy of {:.2g} is asked for{}, but {} is off by an estimated {:.2g} of its rms, standard "
                     "deviation or extreme; {}",
-                    scene_.accuracy.value, companions_.at(level).signals[signal].name, error, why),
+                    scene_.accuracy.value,
+                    shared ? fmt::format(", of which {:.2g} is left beside other errors", allowed) : "",
+                    companions_.at(level).signals[signal].name, error, why),
         scene_.accuracy.place,
         remedy + ", leave that signal out of `of`, or take the error by name: [solve] accept_error = true");
   }
   [[noreturn]] void refuse_step(int level, std::size_t signal) const {
     const Judged& j = judged_[signal];
     const bool tolerance = companions_.by_tolerance();
-    refuse(level, signal, j.error,
+    refuse(level, signal, j.error, left_for_step(signal),
            fmt::format("the {} stands in the way: errors {} from one run to the next with {}",
                        tolerance ? "tolerance" : "step",
                        j.ratio > 0 ? fmt::format("fall by {:.2g}", j.ratio) : "are not seen to fall",
@@ -363,7 +367,7 @@ class Refinement {
                        scene_.run->every / std::ceil(scene_.run->every / longest));
   }
   [[noreturn]] void refuse_memory(int level, std::size_t signal) const {
-    refuse(level, signal, scene_.accuracy - left_for_step(signal), "the memory of radiated waves stands in the way",
+    refuse(level, signal, scene_.accuracy - left_for_step(signal), scene_.accuracy, "the memory of radiated waves stands in the way",
            fmt::format("give radiation a finer memory_tolerance, {}", less_accuracy));
   }
 
@@ -382,7 +386,7 @@ class Refinement {
     Run out = companions_.take(level);
     if (const int times = companions_.refined_pieces(); times > 1)
       out.notes.push_back(fmt::format("members are cut into {} times as many pieces as were chosen first", times));
-    out.error = std::move(error);
+    set_error(out, std::move(error));
     return out;
   }
   /// Standard deviation from where the signal cannot be predicted, by all runs there are: they have parted.
@@ -398,7 +402,7 @@ class Refinement {
   }
   Run without_estimate(int level, const char* why) {
     Run out = companions_.take(level);
-    out.error = unknown_error(scene_, why);
+    set_error(out, unknown_error(scene_, why));
     return out;
   }
 
@@ -442,6 +446,11 @@ ErrorEstimate unknown_error(const scene::Scene& scene, std::string missing) {
           .unpredictable = {},
           .unseen = {},
           .missing = std::move(missing)};
+}
+
+void set_error(Run& run, ErrorEstimate error) {
+  error.unseen.insert(error.unseen.begin(), run.error.unseen.begin(), run.error.unseen.end());
+  run.error = std::move(error);
 }
 
 Run run_to_accuracy(const scene::Scene& scene, const compile::Prepared& prepared,

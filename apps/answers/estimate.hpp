@@ -12,6 +12,8 @@ namespace froude {
 
 /// Of an answer to a scene, before anything is known of its error, or where nothing can be: `missing` says why.
 ErrorEstimate unknown_error(const scene::Scene& scene, std::string missing = {});
+/// Beside what the run itself has told to have no estimate.
+void set_error(Run& run, ErrorEstimate error);
 
 /// Runs a scene so that the error of each signal asked for, Run::error, stays within [ask] accuracy: the step (or the
 /// tolerance) that the program chooses is refined until it does. What the scene itself gives stands, and its error is

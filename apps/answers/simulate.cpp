@@ -7,6 +7,7 @@
 
 #include "answers/controlled_run.hpp"
 #include "answers/estimate.hpp"
+#include "answers/far_from_place.hpp"
 #include "answers/linear_response.hpp"
 #include "answers/provenance.hpp"
 #include "compile/integrator.hpp"
@@ -50,7 +51,8 @@ class March {
         record_(record),
         workspace_(std::in_place, m.model, m.start),
         integrator_(compile::make_integrator(scene, m.model)),
-        rounding_(rounding_of(m.model)) {
+        rounding_(rounding_of(m.model)),
+        places_(scene, m.water.sea) {
     if (const auto& every = scene.run->checkpoint) {
       require_kept();
       checkpoint_steps_ = static_cast<std::size_t>(std::max(1LL, std::llround(every->value / m.step)));
@@ -156,6 +158,7 @@ class March {
     for (Signal& s : record_.signals) bytes.pass(s.values);
     bytes.pass(record_.steps, record_.parts, record_.newton_iterations, record_.halvings, record_.events, record_.leaps,
                record_.worst_residual.energy, record_.worst_residual.time);
+    places_.keep_state(bytes);
     bool has_motion = motion_ != nullptr;
     bytes.pass(has_motion);
     if (has_motion && motion_) bytes.pass(motion_->of_modes);
@@ -216,6 +219,7 @@ class March {
     const compile::Moment now{m_.model, *workspace_, ledger, lines_};
     const bool joints_jumped = rulers_.joints.decide(now);
     follow(rulers_.connectors.decide(now) || joints_jumped, ledger);
+    places_.look(workspace_->state);
     watch(n, balance(ledger));
     watch_losses(n, ledger);
   }
@@ -291,6 +295,7 @@ class March {
       record_.energy.emplace_back(name + ".supplied", e.supplied());
       record_.energy.emplace_back(name + ".dissipated", e.dissipated());
     }
+    record_.error.unseen = places_.told();
     const Balance whole = balance(ledger);
     record_.energy.emplace_back("residual", whole.residual);
     record_.energy.emplace_back("largest_residual", record_.worst_residual.energy);
@@ -310,6 +315,7 @@ class March {
   std::optional<dynamics::Workspace> workspace_;
   std::unique_ptr<dynamics::Integrator> integrator_;
   double rounding_;  // J
+  FarFromPlace places_;
   compile::VelocityRecord* motion_ = nullptr;
 };
 
@@ -364,7 +370,7 @@ Run simulate_controlled(const scene::Scene& scene, const std::function<void(doub
   const double preparation = seconds_since(begin);
   Run record = run_ruled(scene, model, std::move(joints), done, nullptr, nullptr, {});
   record.preparation_s = preparation;
-  record.error = unknown_error(scene, "controllers of the caller decide, which can be asked once only");
+  set_error(record, unknown_error(scene, "controllers of the caller decide, which can be asked once only"));
   return record;
 }
 
