@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "hydro/base/dense.hpp"
 #include "reduction.hpp"
@@ -60,6 +61,10 @@ class FreeMotions {
     return damping_ + gathered([&](const auto& table) { return table.damping(clamped(omega, table)); });
   }
 
+  /// Displacements of all motions, turns as the way of the radius of gyration, m; a column each.
+  Eigen::MatrixXd displacements(const Eigen::MatrixXd& x) const {
+    return gyration_.asDiagonal() * reduction_.expanded(x);
+  }
   /// Displacements of all motions, scaled as Mode::shape says. `x` is real up to a common factor.
   template <class Vector>
   Vector shape(const Vector& x) const {
@@ -168,10 +173,84 @@ std::optional<DampedMode> damped(const FreeMotions& system, double omega, const 
   return std::nullopt;
 }
 
-Mode mode_at(const FreeMotions& system, Eigen::Index k, double omega) {
-  const Eigen::VectorXd x =
-      system.unscaled(hydro::dense::symmetric_eigen(dynamic_stiffness(system, omega)).vectors.col(k));
-  return {omega, system.shape(x), !system.inside_data(omega), damped(system, omega, x)};
+/// n − 1 columns that are orthonormal, and across a unit vector: those of Householder's mirror.
+Eigen::MatrixXd across(const Eigen::VectorXd& along) {
+  const Eigen::Index n = along.size();
+  Eigen::VectorXd normal = along;
+  normal[0] += std::copysign(1.0, along[0]);
+  const Eigen::MatrixXd mirror =
+      Eigen::MatrixXd::Identity(n, n) - 2 / normal.squaredNorm() * normal * normal.transpose();
+  return mirror.rightCols(n - 1);
+}
+
+/// The combination of columns in which the largest motion of all is as large as can be, those that have nothing of it,
+/// and so on among these: of motions of one frequency, in place of any mixture of them, those of few bodies.
+Eigen::MatrixXd purest(const Eigen::MatrixXd& motions) {
+  const Eigen::Index count = motions.cols();
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(count, count), left = Eigen::MatrixXd::Identity(count, count);
+  for (Eigen::Index k = 0; k < count; ++k) {
+    Eigen::Index largest = 0;
+    const Eigen::MatrixXd of_left = motions * left;
+    of_left.rowwise().squaredNorm().maxCoeff(&largest);
+    const Eigen::VectorXd along = of_left.row(largest).normalized();
+    out.col(k) = left * along;
+    left = left * across(along);
+  }
+  return out;
+}
+
+/// Motions x of one frequency so that neither M nor the damping mixes them: any combination of columns is one too. (Q2)
+Eigen::MatrixXd apart(const FreeMotions& system, double omega, Eigen::MatrixXd x) {
+  const Eigen::MatrixXd energy = x.transpose() * system.mass(omega) * x;
+  const hydro::dense::Cholesky factor(energy);
+  if (!factor) return x;  // about a resonance of the water M + A is no energy
+  const Eigen::MatrixXd L = factor.L();
+  x = L.triangularView<Eigen::Lower>().solve(x.transpose()).transpose().eval();
+  x *= purest(system.displacements(x));
+  Eigen::MatrixXd damping = hydro::dense::symmetric_part(x.transpose() * system.damping(omega) * x);
+  const double rounding = 1e-10 * damping.cwiseAbs().maxCoeff();
+  damping = (damping.array().abs() > rounding).select(damping, 0);
+  if (damping.isDiagonal(0)) return x;
+  return x * hydro::dense::symmetric_eigen(damping).vectors;
+}
+
+/// The modes of so many roots at one frequency, or so near to each other that rounding hides which is which.
+std::vector<Mode> modes_at(const FreeMotions& system, double omega, std::size_t count) {
+  const auto eigen = hydro::dense::symmetric_eigen(dynamic_stiffness(system, omega));
+  std::vector<Eigen::Index> order(static_cast<std::size_t>(eigen.values.size()));
+  std::iota(order.begin(), order.end(), Eigen::Index{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](auto a, auto b) { return std::abs(eigen.values[a]) < std::abs(eigen.values[b]); });
+  Eigen::MatrixXd x(eigen.vectors.rows(), static_cast<Eigen::Index>(count));
+  for (Eigen::Index k = 0; k < x.cols(); ++k)
+    x.col(k) = system.unscaled(eigen.vectors.col(order[static_cast<std::size_t>(k)]));
+  if (count > 1) x = apart(system, omega, std::move(x));
+  std::vector<Mode> out;
+  for (Eigen::Index k = 0; k < x.cols(); ++k) {
+    const Eigen::VectorXd motion = x.col(k);
+    out.push_back({omega, system.shape(motion), !system.inside_data(omega), damped(system, omega, motion)});
+  }
+  return out;
+}
+
+/// How far apart two roots can be told, rad/s: eigenvalues are right to some ε of the largest, and fall with ω by 2ω
+/// times a mass that is no less than the dry one, 1.
+double told_apart(const FreeMotions& system, double omega) {
+  constexpr double epsilon = std::numeric_limits<double>::epsilon(), roundings = 100, most = 1e-4;
+  const double largest = eigenvalues(system, omega).cwiseAbs().maxCoeff();
+  return std::min(most * omega, roundings * epsilon * (omega + largest / omega));
+}
+
+/// Of sorted roots.
+std::vector<Mode> modes_of(const FreeMotions& system, const std::vector<double>& roots) {
+  std::vector<Mode> out;
+  for (std::size_t first = 0, end; first < roots.size(); first = end) {
+    const double near = told_apart(system, roots[first]);
+    for (end = first + 1; end < roots.size() && roots[end] - roots[end - 1] <= near;) ++end;
+    for (Mode& mode : modes_at(system, (roots[first] + roots[end - 1]) / 2, end - first))
+      out.push_back(std::move(mode));
+  }
+  return out;
 }
 
 /// Motions with no stiffness, or less than none.
@@ -203,16 +282,17 @@ ModeList free_motions(const SmallMotions& about, const std::vector<PotentialGrou
   const double stiffest = eigenvalues(system, 0).maxCoeff();
   nodes.insert(nodes.begin(), slowest_of_all);
   if (lightest > 0) nodes.push_back(2 * std::max(nodes.back(), std::sqrt(std::max(0.0, stiffest) / lightest)));
+  std::vector<double> roots;
   Eigen::VectorXd before = eigenvalues(system, nodes.front());
   for (std::size_t i = 1; i < nodes.size(); ++i) {
     const Eigen::VectorXd here = eigenvalues(system, nodes[i]);
     for (Eigen::Index k = 0; k < system.count(); ++k)
       if ((before[k] > 0) != (here[k] > 0))
-        out.modes.push_back(
-            mode_at(system, k, own_frequency(system, k, {nodes[i - 1], before[k]}, {nodes[i], here[k]})));
+        roots.push_back(own_frequency(system, k, {nodes[i - 1], before[k]}, {nodes[i], here[k]}));
     before = here;
   }
-  std::stable_sort(out.modes.begin(), out.modes.end(), [](const Mode& a, const Mode& b) { return a.omega < b.omega; });
+  std::sort(roots.begin(), roots.end());
+  out.modes = modes_of(system, roots);
   return out;
 }
 

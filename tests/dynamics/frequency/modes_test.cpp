@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/SVD>
 
 #include <cmath>
 #include <numbers>
@@ -102,6 +103,50 @@ TEST(Modes, OfAChainAreThoseOfLagrange) {
     for (int i = 0; i < n; ++i)  // the largest may stand at two places with different signs
       EXPECT_NEAR(std::abs(mode.shape[6 * i]), std::abs(shape[i] / shape[largest]), 1e-10);
   }
+}
+
+/// How far the shapes are from being linearly dependent: the least singular value of unit columns.
+double independence(const std::vector<Mode>& modes) {
+  Eigen::MatrixXd shapes(modes.front().shape.size(), static_cast<Eigen::Index>(modes.size()));
+  for (std::size_t i = 0; i < modes.size(); ++i) shapes.col(static_cast<Eigen::Index>(i)) = modes[i].shape.normalized();
+  return Eigen::JacobiSVD<Eigen::MatrixXd>(shapes).singularValues().minCoeff();
+}
+
+// Three bodies that feel nothing of each other, surge and sway on springs alike: six modes of one frequency, each a
+// motion of one body, whose eigenvectors no solver tells apart.
+TEST(Modes, OfOneFrequencyAreAsManyMotions) {
+  const std::vector<RigidBody> bodies{body("a", 0), body("b", 20), body("c", 40)};
+  const Matrix6 K = diagonal({4000, 4000, 9000, 64e3, 100e3, 144e3}), D = diagonal({80, 80, 0, 0, 0, 0});
+  for (const double damped_share : {0.0, 1.0}) {
+    const auto found = free_motions(held(bodies, K, damped_share * D), {});
+    ASSERT_EQ(found.modes.size(), 18u);
+    EXPECT_NEAR(independence(found.modes), 1, 1e-9);
+    for (std::size_t i = 0; i < 6; ++i) {
+      const Mode& mode = found.modes[i];
+      EXPECT_NEAR(mode.omega, 2, 1e-12);
+      EXPECT_NEAR((mode.shape.cwiseAbs().array() > 1e-9).count(), 1, 0);
+      ASSERT_TRUE(mode.damped);
+      EXPECT_NEAR(-mode.damped->s.real(), damped_share * 0.04, 1e-12);  // D/2m
+    }
+  }
+}
+
+// Two alike, of which one is damped: the mode that is damped belongs to it, though both have one frequency.
+TEST(Modes, OfOneFrequencyKeepTheirDampingApart) {
+  const std::vector<RigidBody> bodies{body("a", 0, surge_only), body("b", 20, surge_only)};
+  std::vector<std::unique_ptr<const ForceKind>> f;
+  const Matrix6 K = diagonal({4000, 0, 0, 0, 0, 0}), D = diagonal({80, 0, 0, 0, 0, 0});
+  f.push_back(
+      std::make_unique<RestoringKind>("mooring", bodies, std::vector<Restoring>{{0, K, D}, {1, K, Matrix6::Zero()}}));
+  const auto found = free_motions(Model(bodies, {}, std::move(f)), {});
+  ASSERT_EQ(found.modes.size(), 2u);
+  for (const Mode& mode : found.modes) {
+    ASSERT_TRUE(mode.damped);
+    const bool of_a = std::abs(mode.shape[0]) > 0.5;
+    EXPECT_NEAR(-mode.damped->s.real(), of_a ? 0.04 : 0, 1e-12);
+    EXPECT_NEAR(std::abs(mode.damped->shape[of_a ? 6 : 0]), 0, 1e-9);
+  }
+  EXPECT_NEAR(independence(found.modes), 1, 1e-9);
 }
 
 TEST(Modes, TellWhatIsAdriftAndWhatTopples) {
