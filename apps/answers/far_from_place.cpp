@@ -29,6 +29,17 @@ bool is_of_revolution(const scene::Hydrodynamics& h) {
   return h.cylinders && h.cylinders->all.size() == 1 && h.cylinders->all.front().centre.isZero();
 }
 
+/// What of a body's loads is as it is placed; empty: nothing. With `turning` excitation follows the yaw, and leans as
+/// little as all others.
+std::string as_placed(const scene::Body& body) {
+  std::vector<std::string> out;
+  const auto& h = body.hydrodynamics;
+  if (h && h->excitation && !h->turning) out.push_back("excitation");
+  if (h && h->radiation) out.push_back("radiation");
+  if (body.second_order) out.push_back("second-order loads");
+  return fmt::format("{}", fmt::join(out, " and "));
+}
+
 /// Between the attitude and that of rest; without its yaw, between both vertical axes.
 double turned(const Eigen::Quaterniond& attitude, bool with_yaw) {
   if (with_yaw) return Eigen::AngleAxisd(attitude).angle();
@@ -41,16 +52,19 @@ double turned(const Eigen::Quaterniond& attitude, bool with_yaw) {
 FarFromPlace::FarFromPlace(const scene::Scene& scene, const std::optional<hydro::waves::Sea>& sea)
     : wave_length_(mean_length(sea)) {
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-    const auto& h = scene.bodies[i].hydrodynamics;
-    if (h && h->makes_waves()) watched_.push_back({i, &scene.bodies[i], !h->turning && !is_of_revolution(*h), {}, {}});
+    const scene::Body& body = scene.bodies[i];
+    const bool round = body.hydrodynamics && is_of_revolution(*body.hydrodynamics);
+    if (std::string what = as_placed(body); !what.empty())
+      watched_.push_back({i, &body, std::move(what), !round, {}, {}});
   }
 }
 
 void FarFromPlace::look(const dynamics::State& state) {
   for (Watched& w : watched_) {
     const dynamics::Pose& pose = state.pose[w.body];
-    w.turn.note(turned(pose.attitude, w.yaws_as_placed), state.time);
-    if (wave_length_ == 0 || !w.given->hydrodynamics->excitation) continue;
+    w.turn.note(turned(pose.attitude, w.yaw_matters), state.time);
+    const auto& h = w.given->hydrodynamics;
+    if (wave_length_ == 0 || !h || !h->excitation) continue;
     const Eigen::Vector3d centre = w.given->position + w.given->centre_of_gravity;
     w.way.note((pose.centre - centre).head<2>().norm(), state.time);
   }
@@ -64,16 +78,16 @@ std::vector<std::string> FarFromPlace::told() const {
   std::vector<std::string> out;
   for (const Watched& w : watched_) {
     if (w.turn.value > most_turned)
-      out.push_back(fmt::format(
-          "the hydrodynamic coefficients of {}, which are those of the body as placed: it has "
-          "turned by {:.3g} deg at {:.5g} s{}",
-          w.given->name, w.turn.value * 180 / std::numbers::pi, w.turn.time,
-          w.yaws_as_placed && w.given->hydrodynamics->excitation ? " (slow yaw can be followed: `turning`)" : ""));
-    if (w.way.value > most_of_length * wave_length_)
       out.push_back(
-          fmt::format("the phases of the waves' loads on {}, which are those of the body as placed: it is "
-                      "{:.3g} m away at {:.5g} s, and waves are {:.3g} m long",
-                      w.given->name, w.way.value, w.way.time, wave_length_));
+          fmt::format("the {} of {} as it turns, by {:.3g} deg at {:.5g} s: its coefficients are those of the "
+                      "body as placed{}",
+                      w.as_placed, w.given->name, w.turn.value * 180 / std::numbers::pi, w.turn.time,
+                      w.as_placed.starts_with("excitation") ? " (`turning` lets excitation follow slow yaw)" : ""));
+    if (w.way.value > most_of_length * wave_length_)
+      out.push_back(fmt::format(
+          "the phases of waves at {} as it goes away, by {:.3g} m at {:.5g} s, waves being {:.3g} m long: its "
+          "excitation is that of the body as placed",
+          w.given->name, w.way.value, w.way.time, wave_length_));
   }
   return out;
 }

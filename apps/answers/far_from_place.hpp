@@ -11,7 +11,7 @@
 
 namespace froude {
 
-/// Watches the bodies of a run that radiate or feel waves by coefficients; others cost nothing.
+/// Watches the bodies of a run whose loads are by coefficients; others cost nothing.
 class FarFromPlace {
  public:
   FarFromPlace(const scene::Scene& scene, const std::optional<hydro::waves::Sea>& sea);
@@ -32,7 +32,8 @@ class FarFromPlace {
   struct Watched {
     std::size_t body;
     const scene::Body* given;
-    bool yaws_as_placed;  ///< its coefficients know no other yaw, and it is no body of revolution
+    std::string as_placed;  ///< "excitation, radiation": what knows no other place
+    bool yaw_matters;       ///< to these: it is no body of revolution
     Farthest turn, way;
   };
   std::vector<Watched> watched_;

@@ -195,6 +195,9 @@ std::vector<std::string> left_out_of_linear_responses(const scene::Scene& scene,
 
 namespace {
 
+constexpr const char* hold_what_topples =
+    "name what restores that motion, or hold it: `free` of the body names those that are left";
+
 void require_two_frequencies(const scene::AskRao& ask) {
   if (ask.omega.size() < 2)
     throw hydro::InputError("frequencies are put between those of [ask.rao], which names one alone", ask.place,
@@ -212,6 +215,7 @@ Responses respond(const scene::Scene& scene, const compile::Prepared& prepared, 
   compile::check_waves_of_rao(scene, prepared, out.notes);
   const dynamics::Model model = compile::frequency_model(prepared, scene.rao->about);
   const SmallMotions about = compile::small_motions(scene, model, scene.rao->about, out.notes);
+  compile::require_stable(about, scene.rao->place, hold_what_topples);
   for (const std::string& effect : left_out_of_linear_responses(scene, prepared, scene.rao->drag || how.drag_of_sea))
     out.notes.push_back(effect);
   const auto signals = compile::chosen_responses(compile::signal_list(scene, prepared, model), scene.rao->of,
@@ -266,6 +270,7 @@ Eigen::VectorXcd motions_in_wave(const scene::Scene& scene, const compile::Prepa
   compile::check_waves_of_rao(one, prepared, notes);
   const dynamics::Model model = compile::frequency_model(prepared, one.rao->about);
   const SmallMotions about = compile::small_motions(one, model, one.rao->about, notes);
+  compile::require_stable(about, place, hold_what_topples);
   for (const std::string& effect : left_out_of_linear_responses(one, prepared, one.rao->drag.has_value()))
     notes.push_back(effect);
   const dynamics::frequency::RaoOptions options{.threads = 1,
@@ -297,6 +302,7 @@ Run steady_run(const scene::Scene& scene, const std::shared_ptr<compile::Kept>& 
   Run record;
   record.notes = prepared.notes;
   const SmallMotions about = compile::small_motions(scene, model, {}, record.notes);
+  compile::require_stable(about, scene.run->place, hold_what_topples);
   record.provenance = provenance_of(scene);
   const hydro::waves::Sea sea = compile::sea_of_run(scene, prepared, record.notes);
   const auto signals = compile::chosen_responses(compile::signal_list(scene, prepared, model), scene.run->of,

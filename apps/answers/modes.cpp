@@ -60,6 +60,22 @@ std::vector<std::string> notes_of(const ModeList& all, const std::vector<Mode>& 
   return notes;
 }
 
+/// Where no motion has a period that is asked for.
+[[noreturn]] void refuse_none(const scene::Scene& scene, const ModeList& all, const SmallMotions& about) {
+  const hydro::Place place{.file = scene.file.string()};
+  if (scene.bodies.empty())
+    throw hydro::InputError("modes are free motions of bodies, and the scene has none", place,
+                            "add a [[body]]; what lines do by themselves a run tells");
+  if (all.modes.empty()) {
+    compile::require_stable(about, place, "name what restores that motion");
+    throw hydro::InputError("nothing restores the bodies: none of their motions has a period", place,
+                            "name what restores them, such as hydrostatics, moorings or connectors");
+  }
+  throw hydro::InputError(fmt::format("of {} free motions none has a period from {} to {} s", all.modes.size(),
+                                      scene.ask_modes->shortest, scene.ask_modes->longest),
+                          place, "ask for a wider range");
+}
+
 void add(const Mode& mode, const SmallMotions& about, Modes& out) {
   const std::complex<double> none(std::nan(""), std::nan(""));
   out.omega.push_back(mode.omega);
@@ -93,10 +109,7 @@ Modes free_modes(const scene::Scene& scene, const std::shared_ptr<compile::Kept>
   const ModeList all = dynamics::frequency::free_motions(about, prepared.groups);
   compile::note_other_depths(scene, prepared, compile::used_by(all), prepared.notes);
   const std::vector<Mode> shown = wanted(all, *scene.ask_modes);
-  if (shown.empty())
-    throw hydro::InputError(fmt::format("none of the {} free motions has a period from {} to {} s", all.modes.size(),
-                                        scene.ask_modes->shortest, scene.ask_modes->longest),
-                            {.file = scene.file.string()}, "ask for a wider range, or name what restores the bodies");
+  if (shown.empty()) refuse_none(scene, all, about);
   Modes out;
   for (int m = 0; m < model.modes(); ++m) out.motions.push_back(model.mode_name(m));
   for (const Mode& mode : shown) add(mode, about, out);

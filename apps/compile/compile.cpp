@@ -168,6 +168,19 @@ void note_other_waterlines(const dynamics::Model& model, const dynamics::State& 
 
 }  // namespace
 
+void require_stable(const dynamics::frequency::SmallMotions& about, const scene::Place& place, const char* remedy) {
+  const auto toppling = dynamics::frequency::toppling_motions(about);
+  if (toppling.empty()) return;
+  std::vector<std::string> moves;
+  for (int m = 0; m < about.model.modes(); ++m)
+    if (std::abs(toppling.front()[m]) > 0.1 && moves.size() < 3) moves.push_back(about.model.mode_name(m));
+  throw InputError(
+      fmt::format("rest is no stable equilibrium: a motion of {} has negative stiffness, so that bodies which come off "
+                  "it do not come back",
+                  fmt::join(moves, ", ")),
+      place, remedy);
+}
+
 dynamics::frequency::SmallMotions small_motions(const Scene& scene, const dynamics::Model& model,
                                                 const scene::About& about, std::vector<std::string>& notes) {
   require_still_water(scene, "small motions");
@@ -285,11 +298,14 @@ PlanLine waves_line(const RunWater& water, double duration) {
 /// Where they balance without waves, with the velocities that the scene gives them there.
 dynamics::State in_equilibrium(const Scene& scene, const dynamics::Model& model, dynamics::State start) {
   require_still_water(scene, "starts in equilibrium");
-  return scene::placed(scene.run->place, [&] {
-    dynamics::State out = dynamics::equilibrium_before_run(model, start);
-    out.velocity = start.velocity;
-    return out;
-  });
+  dynamics::State out = scene::placed(scene.run->place, [&] { return dynamics::equilibrium_before_run(model, start); });
+  dynamics::frequency::SmallMotions about(model, out);
+  about.linear = model.linear_before_runs(out);
+  require_stable(about, scene.run->place,
+                 "give bodies `initial` places nearer to the equilibrium that you mean, or begin with start = \"as "
+                 "placed\"");
+  out.velocity = start.velocity;
+  return out;
 }
 
 /// The lines of a plan for kinds of force that one line would not tell.

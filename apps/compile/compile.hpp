@@ -106,6 +106,10 @@ struct RunWater {
   std::shared_ptr<const hydro::waves::BoxedField> around_lines;    ///< the same; null without wet lines in a sea
 };
 
+/// \throws hydro::InputError naming the motion in which rest is no stable equilibrium: it does not come back there, so
+/// that nothing lasts about it
+void require_stable(const dynamics::frequency::SmallMotions& about, const scene::Place& place, const char* remedy);
+
 /// The sea of a run whose answer is linear in it; `notes` are told what coefficients of another depth leave wrong in
 /// it. \throws hydro::InputError where the waves are no sum of linear ones
 hydro::waves::Sea sea_of_run(const scene::Scene& scene, const Prepared& prepared, std::vector<std::string>& notes);

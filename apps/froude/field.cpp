@@ -164,7 +164,7 @@ plot::Figure figure(const scene::Scene& scene, const FreeSurface& surface) {
 
 void field(const FieldArguments& arguments, const Console& console) {
   const scene::Scene scene = scene::read(arguments.scene);
-  require_asked(scene.field.has_value(), scene, "field",
+  require_asked(scene.field.has_value(), scene, "a field",
                 "field = { period = \"4 s\", x = \"-30 m .. 30 m, 61 values\", y = \"-30 m .. 30 m, 61 values\" }");
   require_asked(scene.field->pressure || !arguments.pressure_csv, scene,
                 "pressure on hulls, which --pressure-csv writes", "field = { …, pressure = true }");

@@ -174,7 +174,7 @@ Report report_of(const scene::Scene& scene, const Responses& r, const Shares& sh
 void rao(const RaoArguments& arguments, const Console& console) {
   Shares shares;
   const scene::Scene scene = scene::read(arguments.scene);
-  require_asked(scene.rao.has_value(), scene, "rao", "rao = { periods = \"2 s .. 8 s, 61 values\" }");
+  require_asked(scene.rao.has_value(), scene, "RAOs", "rao = { periods = \"2 s .. 8 s, 61 values\" }");
   const Path file = checked_output(arguments, ".rao.h5");
   shares.end("reading");
   HowToRespond how{.refine = arguments.refine};

@@ -514,7 +514,7 @@ void response(const ResponseArguments& arguments, const Console& console) {
   require_checkable(arguments);
   const Asked asked = asked_of(arguments);
   const scene::Scene scene = scene::read(arguments.scene);
-  require_asked(scene.rao.has_value(), scene, "rao", "rao = { periods = \"3 s .. 25 s, 45 values\" }");
+  require_asked(scene.rao.has_value(), scene, "RAOs", "rao = { periods = \"3 s .. 25 s, 45 values\" }");
   if (arguments.scatter) {
     const Scatter scatter = scatter_of(arguments);
     std::vector<const scene::Scene*> scenes;

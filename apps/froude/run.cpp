@@ -115,7 +115,7 @@ Report report_of(const scene::Scene& scene, const Run& record, const Shares& sha
 void run(const SceneArguments& arguments, const Console& console) {
   Shares shares;
   const scene::Scene scene = scene::read(arguments.scene);
-  require_asked(scene.run.has_value(), scene, "run", "run = { duration = \"600 s\", every = \"0.05 s\" }");
+  require_asked(scene.run.has_value(), scene, "a run", "run = { duration = \"600 s\", every = \"0.05 s\" }");
   const Path file = checked_output(arguments, ".run.h5");
   std::optional<Checkpoints> checkpoints = checkpoints_of(scene, arguments, file);
   Progress progress(console.err, "run", console.show_progress);

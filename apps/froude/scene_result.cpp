@@ -20,7 +20,7 @@ Path checked_output(const SceneArguments& arguments, const std::string& ending,
 
 void require_asked(bool asked, const scene::Scene& scene, const std::string& what, const std::string& example) {
   if (!asked)
-    throw hydro::InputError(fmt::format("the scene does not ask for a {}", what), {.file = scene.file.string()},
+    throw hydro::InputError(fmt::format("the scene does not ask for {}", what), {.file = scene.file.string()},
                             "add to [ask]: " + example);
 }
 

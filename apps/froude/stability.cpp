@@ -343,7 +343,7 @@ plot::Figure figure(const scene::Scene& scene, const StabilityMap& map) {
 
 void stability(const StabilityArguments& arguments, const Console& console) {
   const scene::Scene scene = scene::read(arguments.scene);
-  require_asked(scene.stability.has_value(), scene, "stability map",
+  require_asked(scene.stability.has_value(), scene, "a stability map",
                 "stability = { periods = \"5 s .. 15 s, 21 values\", heights = \"0.5 m .. 4 m, 8 values\" }");
   if (arguments.picture && !is_map(*scene.stability) && scene.stability->branches.empty())
     throw hydro::InputError("a picture of the map needs two periods and two heights, or a branch",

@@ -1,5 +1,7 @@
 #include "dynamics/frequency/modes.hpp"
 
+#include <Eigen/SparseCholesky>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -151,6 +153,12 @@ double likeness(const Eigen::VectorXcd& x, const Eigen::VectorXd& y) {
   return std::norm(y.cast<Complex>().dot(x)) / (x.squaredNorm() * y.squaredNorm());
 }
 
+/// F x = 0 to rounding. Where several motions have one root, inverse iteration would leave this one for any mixture.
+bool is_root(const Eigen::MatrixXcd& F, const Eigen::VectorXcd& x) {
+  constexpr double rounding = 1e-13;
+  return (F * x).norm() <= rounding * (F.cwiseAbs() * x.cwiseAbs()).norm();
+}
+
 std::optional<DampedMode> damped(const FreeMotions& system, double omega, const Eigen::VectorXd& undamped) {
   Complex s(0, omega);
   Eigen::VectorXcd x = undamped.cast<Complex>();
@@ -160,8 +168,9 @@ std::optional<DampedMode> damped(const FreeMotions& system, double omega, const 
     if (!(next.imag() > 1e-3 * omega)) return std::nullopt;
     const bool settled = std::abs(next - s) < 1e-12 * std::abs(next);
     s = next;
-    // One step of inverse iteration towards the shape; F is near singular on purpose, its rounding lies along x.
     const Eigen::MatrixXcd F = s * s * m + s * c + system.stiffness();
+    if (is_root(F, x)) return DampedMode{s, system.shape(x)};
+    // One step of inverse iteration towards the shape; F is near singular on purpose, its rounding lies along x.
     const Eigen::VectorXcd y = hydro::dense::ComplexLu(F).solve((2.0 * s * m + c) * x);
     if (y.allFinite() && y.norm() > 0) x = y / y.norm();
     if (!settled || i < 3) continue;
@@ -253,10 +262,26 @@ std::vector<Mode> modes_of(const FreeMotions& system, const std::vector<double>&
   return out;
 }
 
+constexpr double no_stiffness = 1e-9;  ///< of that of the stiffest motion
+
+/// True unless some motion has less stiffness than none: the pivots of the factors have the signs of the eigenvalues.
+/// Of a thousand bodies that only connectors join, factors are sparse.
+bool holds(const SmallMotions& about) {
+  const Reduction reduction(about);
+  const Eigen::VectorXd scale = reduction.matrix(about.mass).diagonal().cwiseSqrt().cwiseInverse();
+  const Eigen::MatrixXd whole = hydro::dense::symmetric_part(reduction.matrix(about.linear.stiffness));
+  Eigen::SparseMatrix<double> K = (scale.asDiagonal() * whole * scale.asDiagonal()).sparseView();
+  Eigen::SparseMatrix<double> none(K.rows(), K.cols());
+  none.setIdentity();
+  K += no_stiffness * whole.diagonal().cwiseAbs().cwiseProduct(scale.cwiseAbs2()).maxCoeff() * none;
+  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors(K);
+  return factors.info() == Eigen::Success && factors.vectorD().minCoeff() > 0;
+}
+
 /// Motions with no stiffness, or less than none.
 void add_unrestored(const FreeMotions& system, ModeList& out) {
   const auto K = hydro::dense::symmetric_eigen(dynamic_stiffness(system, 0));
-  const double none = 1e-9 * K.values.cwiseAbs().maxCoeff();
+  const double none = no_stiffness * K.values.cwiseAbs().maxCoeff();
   for (Eigen::Index k = 0; k < system.count() && K.values[k] <= none; ++k)
     (K.values[k] < -none ? out.toppling : out.adrift)
         .push_back(system.shape(Eigen::VectorXd(system.unscaled(K.vectors.col(k)))));
@@ -267,6 +292,12 @@ void add_unrestored(const FreeMotions& system, ModeList& out) {
 Eigen::VectorXd Mode::energy_share(const SmallMotions& about) const {
   const Eigen::VectorXd share = shape.cwiseProduct(about.mass * shape);
   return share / share.sum();
+}
+
+std::vector<Eigen::VectorXd> toppling_motions(const SmallMotions& about) {
+  ModeList out;
+  if (Reduction(about).count() > 0 && !holds(about)) add_unrestored(FreeMotions(about, {}), out);
+  return out.toppling;
 }
 
 ModeList free_motions(const SmallMotions& about, const std::vector<PotentialGroup>& groups) {

@@ -1,4 +1,5 @@
 // Linear responses about where bodies balance: of a moored module that wind has pushed aside, against a run there.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -7,6 +8,7 @@
 #include "answers/linear_response.hpp"
 #include "answers/simulate.hpp"
 #include "apps/compile/scenes.hpp"
+#include "hydro/base/error.hpp"
 #include "hydro/signal/harmonics.hpp"
 
 namespace about_equilibrium_test {
@@ -93,6 +95,56 @@ TEST(AboutEquilibrium, TheNotesTellWhereItIs) {
 
 TEST(AboutEquilibrium, AsPlacedItIsNotAtRest) {
   EXPECT_THROW(respond(froude_test::parse(scene_text("as placed"))), hydro::InputError);
+}
+
+/// A pendulum upside down: its weight turns it by mgl = 9088 · 9.81 · 1.31 N m = 116.8 kN m/rad, against a spring of
+/// `roll` kN m/rad.
+std::string top_heavy(const std::string& roll, const std::string& start) {
+  return froude_test::water + R"([waves]
+kind = "regular"
+amplitude = "0.1 m"
+period = "5 s"
+heading = "90 deg"
+[[body]]
+name = "b"
+mass = "9088 kg"
+radii_of_gyration = "(4.6, 4.6, 6.4) m"
+centre_of_gravity = "(0, 0, 1.31) m"
+weight = true
+[body.hydrodynamics]
+file = "pontoon1.nc"
+excitation = true
+[[joint]]
+name = "hinge"
+kind = "hinge"
+between = ["ground", "b"]
+at = "(0, 0, 0) m"
+axis = "x"
+[[mooring]]
+on = "b"
+kind = "linear"
+stiffness = { roll = ")" +
+         roll + R"( kN m/rad" }
+[ask]
+run = { duration = "2 s", every = "0.1 s", start = ")" +
+         start + R"(" }
+rao = { periods = "4 s .. 5 s, 2 values" }
+modes = {}
+)";
+}
+
+// Nothing lasts about a rest that is not stable: neither responses nor runs that begin there tell what bodies do.
+TEST(UnstableRest, IsRefusedByNameWhereSomethingShouldLast) {
+  using testing::HasSubstr, testing::ThrowsMessage;
+  const auto refused =
+      ThrowsMessage<hydro::InputError>(HasSubstr("no stable equilibrium: a motion of b.sway, b.roll has"));
+  const scene::Scene topples = froude_test::parse(top_heavy("116", "equilibrium"));
+  EXPECT_THAT([&] { respond(topples); }, refused);
+  EXPECT_THAT([&] { simulate(topples); }, refused);
+  EXPECT_EQ(simulate(froude_test::parse(top_heavy("116", "as placed"))).stopped, "");
+  const scene::Scene stands = froude_test::parse(top_heavy("118", "equilibrium"));
+  EXPECT_NO_THROW(respond(stands));
+  EXPECT_EQ(simulate(stands).stopped, "");
 }
 
 }  // namespace

@@ -118,5 +118,28 @@ TEST(TurningExcitation, RefusesWhatCannotTurn) {
               ThrowsMessage<hydro::InputError>(HasSubstr("heading")));
 }
 
+// 15 degrees are the limit; what is said is of the loads that know no other attitude.
+TEST(FarFromPlace, TellsWhatKnowsNoOtherYaw) {
+  const auto told = [](const std::string& turning, const std::string& yaw) {
+    return testing::PrintToString(simulate(module(turning, "initial = { yaw = \"" + yaw + "\" }\n")).warnings());
+  };
+  const std::string at_rest = "no error is estimated";
+  EXPECT_THAT(told("", "10 deg"), testing::Not(HasSubstr(at_rest)));
+  EXPECT_THAT(told("", "-30 deg"), HasSubstr("no error is estimated of the excitation of m as it turns, by 30"));
+  EXPECT_THAT(told(quarter, "-30 deg"), testing::Not(HasSubstr(at_rest)));
+  EXPECT_THAT(told(quarter + "radiation = { memory_tolerance = 0.2 }\n", "-30 deg"),
+              AllOf(HasSubstr("the radiation of m as it turns"), testing::Not(HasSubstr("excitation"))));
+}
+
+// A quarter of the wave, 52 m long in 14 m of water, is 13 m; of the way 5.5 m are what a wave gives that begins at once.
+TEST(FarFromPlace, TellsOfPhasesWhereABodyGoesAway) {
+  const auto told = [](const std::string& speed) {
+    return testing::PrintToString(
+        simulate(module("", "initial_velocity = { surge = \"" + speed + "\" }\n")).warnings());
+  };
+  EXPECT_THAT(told("0.2 m/s"), testing::Not(HasSubstr("phases of waves")));
+  EXPECT_THAT(told("1 m/s"), HasSubstr("the phases of waves at m as it goes away, by 25"));
+}
+
 }  // namespace
 }  // namespace turning_test

@@ -47,4 +47,7 @@ struct ModeList {
 /// order ζ² (Q4). Cost O((6N)³) for each frequency of the table.
 ModeList free_motions(const SmallMotions& about, const std::vector<PotentialGroup>& groups);
 
+/// ModeList::toppling alone: sparse factors of the stiffness, and the cost of free_motions() only where something does.
+std::vector<Eigen::VectorXd> toppling_motions(const SmallMotions& about);
+
 }  // namespace dynamics::frequency
