@@ -27,6 +27,8 @@ std::vector<Signal> empty_signals(const scene::Probe& probe) {
   return out;
 }
 
+bool tells_of_flow(const scene::Probe& probe) { return probe.velocity || probe.acceleration || probe.pressure; }
+
 /// What each signal of a probe is to a wave of unit amplitude, in the same order.
 std::vector<hw::Transfer> transfers(const scene::Probe& probe, const hydro::Water& water) {
   constexpr std::complex<double> i(0, 1);
@@ -64,6 +66,15 @@ void add_linear(const scene::Scene& scene, const hw::Sea& sea, const scene::Prob
   std::move(signals.begin(), signals.end(), std::back_inserter(out.signals));
 }
 
+/// Of linear waves at a probe.
+std::vector<double> elevation_at(const scene::Scene& scene, const hw::Sea& sea, const scene::Probe& probe,
+                                 std::size_t samples) {
+  const scene::AskWaves& ask = *scene.ask_waves;
+  return hw::synthesise(sea, {ask.every, samples}, [&](const hw::Component& w) {
+    return hw::elevation_transfer(w, probe.at.x(), probe.at.y()) * std::polar(1.0, w.omega * ask.from);
+  });
+}
+
 /// The bound waves of a sea on a grid, added to the signals of one probe that add_linear() has just made.
 void add_bound(const scene::Scene& scene, const hw::Sea& sea, const scene::Probe& probe, WaterSeries& out) {
   const scene::AskWaves& ask = *scene.ask_waves;
@@ -88,15 +99,36 @@ void add_bound(const scene::Scene& scene, const hw::Sea& sea, const scene::Probe
   }
 }
 
+/// Of a probe that tells more than the elevation, where that passes below it at some samples.
+void tell_dry(const scene::Probe& probe, const std::vector<double>& elevation, WaterSeries& out) {
+  if (!tells_of_flow(probe)) return;
+  const auto dry = std::count_if(elevation.begin(), elevation.end(), [&](double z) { return z < probe.at.z(); });
+  const double share = static_cast<double>(dry) / static_cast<double>(elevation.size());
+  if (share == 1)
+    throw hydro::InputError(
+        fmt::format("probe \"{}\" at z = {:.4g} m is above the water all the time, where nothing has "
+                    "a velocity or a pressure of the waves",
+                    probe.name, probe.at.z()),
+        probe.place, "move it down, or let it give its elevation alone");
+  if (share > 0)
+    out.notes.push_back(
+        fmt::format("probe {} is above the water at {:.3g} % of the samples: velocity and pressure there "
+                    "are the waves' laws continued, and no water's",
+                    probe.name, 100 * share));
+}
+
 void add_from_field(const hw::WaveField& field, const scene::Probe& probe, WaterSeries& out,
                     const std::function<void(double)>& progress) {
   std::vector<Signal> signals = empty_signals(probe);
   const auto told = compile::probe_signals(probe);
+  std::vector<double> elevation;
   for (std::size_t n = 0; n < out.time.size(); ++n) {
     const hw::Kinematics k = field.at(out.time[n], probe.at);
     for (std::size_t i = 0; i < told.size(); ++i) signals[i].values.push_back(told[i].take(k));
+    elevation.push_back(k.elevation);
     if (n % 256 == 0) progress(static_cast<double>(n) / static_cast<double>(out.time.size()));
   }
+  tell_dry(probe, elevation, out);
   std::move(signals.begin(), signals.end(), std::back_inserter(out.signals));
 }
 
@@ -150,6 +182,9 @@ WaterSeries water_series(const scene::Scene& scene, const std::function<void(dou
     for (std::size_t p = 0; p < scene.probes.size(); ++p) {
       add_linear(scene, sea, scene.probes[p], out);
       if (bound) add_bound(scene, sea, scene.probes[p], out);
+      // Twice Hs below still water none of a day's waves comes.
+      if (tells_of_flow(scene.probes[p]) && scene.probes[p].at.z() > -2 * sea.hs())
+        tell_dry(scene.probes[p], elevation_at(scene, sea, scene.probes[p], samples), out);
       if (progress) progress(static_cast<double>(p + 1) / probes);
     }
     return out;

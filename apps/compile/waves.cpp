@@ -104,6 +104,40 @@ std::uint64_t seed_of(const scene::RandomSea& sea, std::size_t system) {
   return sea.seed + apart * system;
 }
 
+/// Elevation of free and bound waves together at a place and time, m; on a grid without a list of all pairs.
+double with_bound_waves(const hw::Sea& sea, const hw::Focus& f) {
+  if (!std::isfinite(sea.repetition_s())) return hw::second_order_field(sea).elevation(f.t_s, f.x_m, f.y_m);
+  const hw::BoundAtPoint bound = hw::bound_at_point(sea, {f.x_m, f.y_m, 0});
+  double out = sea.elevation(f.t_s, f.x_m, f.y_m);
+  for (std::size_t j = 0; j < bound.elevation.size(); ++j)
+    out += (bound.elevation[j] * std::polar(1.0, two_pi * static_cast<double>(j) / bound.repetition_s * f.t_s)).real();
+  return out;
+}
+
+/// With the crest at its place and time; where there are bound waves, the crest is that of the free ones which has the
+/// height together with theirs. By secants: bound waves go with the square of the height.
+hw::Sea with_crest(const hw::Sea& all, const scene::Crest& crest, bool bound, const Place& place) {
+  const auto put_in = [&](double height) {
+    return crest.alone ? hw::new_wave(all, height, crest.focus) : hw::constrained_new_wave(all, height, crest.focus);
+  };
+  if (!bound) return put_in(crest.height);
+  const auto excess = [&](double free) { return with_bound_waves(put_in(free), crest.focus) - crest.height; };
+  constexpr int most = 20;
+  constexpr double tolerance = 1e-7;
+  double before = 0, of_before = excess(before), free = crest.height;
+  for (int i = 0; i < most; ++i) {
+    const double of_free = excess(free);
+    if (std::abs(of_free) <= tolerance * crest.height) return put_in(free);
+    const double next = free - of_free * (free - before) / (of_free - of_before);
+    before = free;
+    of_before = of_free;
+    free = next;
+    if (!(free > 0 && free < 2 * crest.height)) break;
+  }
+  throw InputError(fmt::format("no crest of free waves is {:.4g} m high together with its bound waves", crest.height),
+                   place, "ask for a lower crest: waves so steep have no second order");
+}
+
 hw::Sea random_sea(const scene::Scene& scene, const scene::RandomSea& sea, const std::optional<Band>& data) {
   const Place& place = scene.waves->place;
   std::vector<hw::Sea> systems;
@@ -121,8 +155,7 @@ hw::Sea random_sea(const scene::Scene& scene, const scene::RandomSea& sea, const
   }
   hw::Sea all = hw::Sea::together(systems);
   if (!sea.crest) return all;
-  return sea.crest->alone ? hw::new_wave(all, sea.crest->height, sea.crest->focus)
-                          : hw::constrained_new_wave(all, sea.crest->height, sea.crest->focus);
+  return with_crest(all, *sea.crest, sea.second_order, place);
 }
 
 // ---- fields ----

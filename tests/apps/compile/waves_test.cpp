@@ -90,6 +90,19 @@ TEST(SeaOfAScene, PutsTheCrestWhereTheSceneWantsIt) {
   EXPECT_LT(std::abs(group.elevation(300, 5, 0)), 0.2);
 }
 
+// Bound waves lift it by a tenth of a metre and more, which the free crest then lacks.
+TEST(FieldOfAScene, HasTheCrestAskedForTogetherWithItsBoundWaves) {
+  const std::string place = "position = \"(5, 0, 0) m\", time = \"60 s\"";
+  for (const std::string around : {"", ", around = \"nothing\""}) {
+    const auto scene = scene_of(jonswap +
+                                "components = { repetition = \"5 min\", highest = \"0.25 Hz\" }\nsecond_order = "
+                                "true\ncrest = { height = \"4 m\", " +
+                                place + around + " }\n");
+    EXPECT_NEAR(make_field(scene)->elevation(60, 5, 0), 4, 1e-6);
+    EXPECT_LT(free_waves(scene).elevation(60, 5, 0), 3.9);
+  }
+}
+
 TEST(FieldOfAScene, OfARegularWaveFollowsItsTheory) {
   const auto field = [](const std::string& theory) {
     return make_field(
