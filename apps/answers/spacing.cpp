@@ -50,12 +50,18 @@ bool is_between(const compile::Prepared& prepared, double omega) {
   });
 }
 
+/// What rounding leaves of motions where symmetry leaves none, m or rad for a metre of wave.
+double rounding_of(const std::string& unit) {
+  constexpr double motion = 1e-9;
+  return unit.find_first_of("NJW") == std::string::npos ? motion : 0;
+}
+
 std::vector<double> peaks(const std::vector<ComplexSignal>& signals) {
   std::vector<double> out;
   for (const auto& s : signals) {
     double square = 0;
     for (const auto& v : s.values) square = std::max(square, std::norm(v));
-    out.push_back(std::sqrt(square));
+    out.push_back(std::max(std::sqrt(square), rounding_of(s.units)));
   }
   return at_least_a_thousandth(std::move(out), signals, &ComplexSignal::units);
 }
@@ -131,7 +137,8 @@ ErrorEstimate error_of_spacing(const scene::Scene& scene, const compile::Prepare
   out.sources.push_back(spacing_source());
   for (std::size_t i = 0; i < signals.size(); ++i) {
     const auto row = static_cast<Eigen::Index>(i);
-    out.sources.front().of_signal.push_back(scale[i] > 0 ? extrapolated(gap[row], before[row]) / scale[i] : 0);
+    const double of = std::max(scale[i], rounding_of(signals[i].unit));
+    out.sources.front().of_signal.push_back(of > 0 ? extrapolated(gap[row], before[row]) / of : 0);
   }
   return out;
 }

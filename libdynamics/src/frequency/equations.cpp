@@ -1,6 +1,7 @@
 #include "equations.hpp"
 
 #include <cmath>
+#include <limits>
 
 #include "algebra/complex_sparse_lu.hpp"
 #include "hydro/base/error.hpp"
@@ -150,8 +151,16 @@ std::optional<Motions> Equations::solve_any(const Impedance& Z, const MatrixXcd&
 }
 
 Motions Equations::solve(const Impedance& Z, const MatrixXcd& X, double omega) const {
-  if (auto out = solve_any(Z, X)) return *std::move(out);
+  if (auto out = solve_any(Z, X); out && !is_rounding(out->xi, X, omega)) return *std::move(out);
   refuse(Z, omega);
+}
+
+// At a resonance that nothing damps stiffness and inertia cancel to what rounding leaves of them, and loads over that
+// are an answer without a digit.
+bool Equations::is_rounding(const MatrixXcd& xi, const MatrixXcd& X, double omega) const {
+  constexpr double epsilon = std::numeric_limits<double>::epsilon(), most = 1e-5;  // of the loads
+  const Eigen::VectorXd cancelled = about_.linear.stiffness.diagonal().cwiseAbs() + omega * omega * mass_;
+  return epsilon * (cancelled.asDiagonal() * xi).norm() > most * X.norm();
 }
 
 // Which motion Z does not answer: three turns of inverse iteration in the metric of the masses, Z moved off the

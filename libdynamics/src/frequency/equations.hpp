@@ -58,6 +58,7 @@ class Equations {
   void prepare_dense();
   void prepare_sparse();
   Eigen::MatrixXcd multipliers(const Eigen::MatrixXcd& rest) const;
+  bool is_rounding(const Eigen::MatrixXcd& xi, const Eigen::MatrixXcd& X, double omega) const;
   [[noreturn]] void refuse(Impedance Z, double omega) const;
 
   const SmallMotions& about_;

@@ -235,7 +235,8 @@ LinkAngles link_rates(const State& state, int first, const LinkAngles& now) {
   const double c = std::cos(now.azimuth), s = std::sin(now.azimuth);
   const double along = c * d.x() + s * d.y();
   const double polar_rate = (d.z() * (c * v.x() + s * v.y()) - along * v.z()) / d.squaredNorm();
-  return {polar_rate, along != 0 ? (c * v.y() - s * v.x()) / along : 0};
+  constexpr double upright = 1e-6;  // rad from the vertical: speeds are known to no more digits than turn it there
+  return {polar_rate, std::abs(along) > upright * d.norm() ? (c * v.y() - s * v.x()) / along : 0};
 }
 
 }  // namespace dynamics::line
