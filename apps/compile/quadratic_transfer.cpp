@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "hydro/base/error.hpp"
+#include "hydro/potential/operations/headings.hpp"
 
 namespace froude::compile {
 
@@ -15,18 +16,13 @@ constexpr double degree = std::numbers::pi / 180;
 
 /// Headings round the whole circle, the first of which is not there again at its end: it is put there.
 void close_circle(QuadraticTransfer& T) {
+  if (!hydro::potential::goes_round(T.heading)) return;
   const std::size_t n = T.heading.size();
-  if (n < 3) return;
-  double step = 0;
-  for (std::size_t i = 1; i < n; ++i) step = std::max(step, T.heading[i] - T.heading[i - 1]);
-  const double turn = 2 * std::numbers::pi, gap = T.heading.front() + turn - T.heading.back();
-  constexpr double rounding = 1e-6;  // degrees are printed with few digits
-  if (gap < rounding || gap > step + rounding) return;
   std::vector<Matrices> closed;
   for (std::size_t i = 0; i <= n; ++i)
     for (std::size_t j = 0; j <= n; ++j) closed.push_back(T.of_headings[i % n * n + j % n]);
   T.of_headings = std::move(closed);
-  T.heading.push_back(T.heading.front() + turn);
+  T.heading.push_back(T.heading.front() + 2 * std::numbers::pi);
 }
 
 QuadraticTransfer read(const scene::Located<std::filesystem::path>& file, const scene::SecondOrder& asked,
@@ -57,13 +53,9 @@ Matrices weighted(const Matrices& a, double by_a, const Matrices& b, double by_b
 }  // namespace
 
 hydro::Stencil between(const QuadraticTransfer& T, double heading) {
-  constexpr double rounding = 1e-6;  // degrees are printed with few digits
-  const double turn = 2 * std::numbers::pi;
-  for (const double beta : {heading, heading - turn, heading + turn})
-    if (beta >= T.heading.front() - rounding && beta <= T.heading.back() + rounding) {
-      if (T.heading.size() == 1) return {.first = 0, .weight = {1}};
-      return hydro::straight_stencil(T.heading, std::clamp(beta, T.heading.front(), T.heading.back()));
-    }
+  const auto at = hydro::potential::between_headings(T.heading, heading);
+  // The first heading is there again at the end of a closed circle, so that neighbours follow one another.
+  if (at) return {.first = at->first, .weight = {1 - at->share, at->share}};
   throw InputError(fmt::format("waves go towards {:.4g} deg, and the second-order loads are for {:.4g} to {:.4g} deg",
                                heading / degree, T.heading.front() / degree, T.heading.back() / degree),
                    {}, "compute the loads for that heading too");

@@ -92,6 +92,28 @@ TEST(CylindersInAScene, AreSolvedTogetherWhereTheyStandAboutTheirCentresOfGravit
   EXPECT_LT((*ours.C - *expected.C).cwiseAbs().maxCoeff(), 1e-4 * expected.C->maxCoeff());
 }
 
+// A short-crested sea goes anywhere: its headings are solved beside those asked for, and between them lines are near.
+TEST(CylindersInAScene, AreSolvedForAllHeadingsOfASpreadSea) {
+  const scene::Scene scene = parse(scene_text(cylinders) + R"([waves]
+kind = "jonswap"
+hs = "0.1 m"
+tp = "4 s"
+heading = "180 deg"
+spreading = { kind = "cos2s", s = 4 }
+)");
+  const auto prepared = compile::prepare(scene);
+  const double degree = std::numbers::pi / 180, heading = 238.169 * degree;  // one that a run drew
+  const Eigen::VectorXcd ours = prepared.groups.at(0).table.excitation(2, heading);
+  hydro::cylinders::Options options{.tolerance = 1e-5};
+  std::vector<hydro::cylinders::CylinderBody> bodies;
+  for (const double x : {1.0, 9.0})
+    bodies.push_back({"c", {x, 2, -0.5}, Eigen::Vector3d(x, 2, -0.5), {{{x, 2}, 1, 1.0}}});
+  const auto exact = hydro::cylinders::solve(bodies, scene.water, {2}, {heading}, options).coefficients;
+  // A chord over 5 degrees of e^{ikL cos β} is off by (kL)²(5°)²/8, at k = 0.45 and L = 8, where the other's waves
+  // come from, 1.2 %.
+  EXPECT_LT((ours - exact.X[0].col(0)).cwiseAbs().maxCoeff(), 0.012 * exact.X[0].cwiseAbs().maxCoeff());
+}
+
 // A wide one between four slender ones: each type has its own draught.
 TEST(CylindersInAScene, MayBeOfSeveralSizesInOneBody) {
   std::string text = scene_text(R"(at = "(±3, ±3, -0.5) m"

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "hydro/base/interpolation.hpp"
+#include "hydro/potential/operations/headings.hpp"
 #include "hydro/waves/dispersion.hpp"
 #include "potential/modes.hpp"
 
@@ -109,6 +110,17 @@ void require_inside(const Coefficients& c, double omega) {
           2 * std::numbers::pi / c.omega.back(), 2 * std::numbers::pi / c.omega.front()),
       {}, "ask for periods inside the data, or compute the coefficients at more frequencies");
 }
+
+[[noreturn]] void refuse_heading(const Coefficients& c, double heading) {
+  const auto degrees = [](double angle) { return angle * 180 / std::numbers::pi; };
+  throw InputError(
+      fmt::format("{}: heading {:.6g} deg is asked for, but excitation is given from {:.6g} to {:.6g} deg", c.source,
+                  degrees(heading), degrees(c.heading.front()), degrees(c.heading.back())),
+      {},
+      "choose headings inside the data; or compute the excitation for this one too: `headings` in "
+      "[body.hydrodynamics.cylinders] or beside `mesh`, --headings of `froude bem solve`; or mirror that of symmetric "
+      "bodies: `froude bem convert --symmetric`");
+}
 }  // namespace
 
 Eigen::MatrixXd FrequencyTable::added_mass(double omega) const {
@@ -139,21 +151,15 @@ Eigen::VectorXcd FrequencyTable::excitation(double omega, double heading) const 
   if (c_.heading.empty())
     throw InputError(fmt::format("{}: there is no excitation in the data", c_.source), {},
                      "put the .3 file beside the .1 file, or leave out `excitation`");
-  constexpr double same = 1e-6;  // rad: degrees written with four decimals
-  if (heading < c_.heading.front() - same || heading > c_.heading.back() + same)
-    throw InputError(
-        fmt::format("{}: heading {:.6g} deg is asked for, but excitation is given from {:.6g} to {:.6g} deg", c_.source,
-                    heading * 180 / std::numbers::pi, c_.heading.front() * 180 / std::numbers::pi,
-                    c_.heading.back() * 180 / std::numbers::pi),
-        {},
-        "choose headings inside the data, compute the excitation for this one, or mirror that of symmetric bodies: "
-        "`froude bem convert --symmetric`");
-  const double inside = std::clamp(heading, c_.heading.front(), c_.heading.back());
-  const Stencil by_heading = straight_stencil(c_.heading, inside), by_omega = cubic_stencil(c_.omega, omega);
-  Eigen::VectorXcd X = combined(by_heading, c_.heading.size(), [&](std::size_t h) {
+  const auto between = between_headings(c_.heading, heading);
+  if (!between) refuse_heading(c_, heading);
+  const Stencil by_omega = cubic_stencil(c_.omega, omega);
+  const auto at = [&](std::size_t h) {
     return Eigen::VectorXcd(
         combined(by_omega, c_.omega.size(), [&](std::size_t w) { return X_[h].col(static_cast<Eigen::Index>(w)); }));
-  });
+  };
+  Eigen::VectorXcd X = at(between->first);
+  if (between->share != 0) X += between->share * (at(between->second) - X);
   const double k = waves::wavenumber(omega, c_.water);
   for (std::size_t b = 0; b < origin_.size(); ++b)
     X.segment<6>(6 * static_cast<Eigen::Index>(b)) *= way(k, heading, origin_[b].x(), origin_[b].y());
