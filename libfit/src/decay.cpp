@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
-#include <optional>
 
+#include "decay_rest.hpp"
 #include "fit/differentiate.hpp"
 #include "fit/verdict.hpp"
 #include "hydro/base/dense.hpp"
@@ -217,29 +217,40 @@ Swings swings_of(const Window& record, std::size_t least) {
   return {find_extremes(time, values), false};
 }
 
-/// From what energy gives; where that ends nowhere or explains too little, from no damping and from the linear damping
-/// that halves a swing in five as well, and the end with the least cost.
-ShootingFit best_fit(ShootingProblem& problem) {
-  const auto tried = [](const ShootingProblem& p) -> std::optional<ShootingFit> {
-    try {
-      return fit_motion(p);
-    } catch (const hydro::NumericsError&) {
-      return {};
-    }
-  };
-  std::optional<ShootingFit> best = tried(problem);
-  if (best && best->explained[0] >= least_explained) return std::move(*best);
-  const ShootingProblem first = problem;
+/// Where the search begins besides what energy gives, if that ends nowhere or explains too little: no damping, and the
+/// linear one that halves a swing in five.
+std::vector<ShootingProblem> plain_starts(const ShootingProblem& first) {
+  std::vector<ShootingProblem> out;
   for (const double share : {0.0, std::numbers::ln2 / (5 * pi)}) {
     ShootingProblem other = first;
     std::fill(other.start.begin() + 1, other.start.begin() + 5, 0.0);
     if (other.fitted[1]) other.start[1] = share * 2 * other.start[0];
-    auto end = tried(other);
-    if (!end || (best && best->search.cost_last <= end->search.cost_last)) continue;
-    best = std::move(end);
-    problem = std::move(other);
+    out.push_back(std::move(other));
   }
-  return best ? std::move(*best) : fit_motion(first);  // which says why it fails
+  return out;
+}
+
+/// The end with the least cost; with Coulomb friction, of all numbers of half cycles that may come before a rest.
+/// `problem` becomes the one that it was found from.
+BestEnd best_fit(ShootingProblem& problem) {
+  std::vector<ShootingProblem> from;
+  std::vector<ShootingFit> ends;
+  const auto try_from = [&](const ShootingProblem& start) {
+    auto end = fit_from(start);
+    if (!end) return;
+    from.push_back(start);
+    ends.push_back(std::move(*end));
+  };
+  const ShootingProblem first = problem;
+  try_from(first);
+  if (ends.empty() || ends[0].explained[0] < least_explained)
+    for (const ShootingProblem& start : plain_starts(first)) try_from(start);
+  if (first.fitted[4])
+    for (const ShootingProblem& start : starts_of_rests(first)) try_from(start);
+  if (ends.empty()) return {0, fit_motion(first), false};  // which says why it fails
+  BestEnd best = best_of(std::move(ends), first.confidence);
+  problem = from[best.which];
+  return best;
 }
 
 }  // namespace
@@ -268,7 +279,9 @@ DecayFit fit_decay(std::span<const Window> records, const DecayOptions& options)
     problem.start[1 + terms[k]] = std::max(0.0, *fit.energy.damping[k].value);
   }
   if (!stand_out) fit.energy.damping.clear();  // it served for a start, and tells nothing
-  fit.motion = best_fit(problem);
+  BestEnd best = best_fit(problem);
+  fit.motion = std::move(best.fit);
+  fit.several_ends = best.has_rivals;
   fit.problem = problem;
   for (const std::size_t k : terms) fit.damping.push_back(judged(fit.motion.parameters[1 + k]));
   const Coefficient& omega = fit.motion.parameters[0];

@@ -68,6 +68,79 @@ Eigen::VectorXd minus_rate(const Eigen::VectorXd& force, double step, double per
   return rate;
 }
 
+/// The linear problem for drag, inertia and a delay of the force, with what noise of the motion takes off it put back
+/// (F68): noise of the acceleration makes least squares find too little inertia, and a delay then takes the place of
+/// what is missing (F115). The coefficients follow at once; only the delay is searched for.
+class DelayEquations {
+ public:
+  DelayEquations(const Cylinder& cylinder, const ForceRecord& record, double step, double period)
+      : columns_(morison_columns(cylinder, record)),
+        carried_(carried_force(cylinder, record)),
+        step_(step),
+        period_(period) {
+    const MorisonColumns at(MorisonOptions{}, false);
+    for (const MotionError& e : record.motion_errors) {
+      Eigen::MatrixXd errors(columns_.rows(), 6);
+      errors.leftCols<2>() = column_errors(cylinder, e, at);
+      errors.col(2) = carried_error(cylinder, e);
+      for (Eigen::Index k = 0; k < 3; ++k) errors.col(3 + k) = minus_rate(errors.col(k), step, period);
+      rate_errors_.emplace_back(errors.rightCols<3>());
+      gram_ += errors.transpose() * errors / static_cast<double>(record.motion_errors.size());
+    }
+    // So much noise is refused with the fit itself.
+    if ((gram_.diagonal().head(2).array() > 0.5 * columns_.colwise().squaredNorm().transpose().array()).any())
+      gram_.setZero();
+  }
+
+  const Eigen::MatrixXd& columns() const { return columns_; }
+  const Eigen::VectorXd& carried() const { return carried_; }
+
+  /// −d/dt of the force that the coefficients of a measured one give.
+  DelayColumn column_for(const Eigen::VectorXd& force) const {
+    const Eigen::Vector3d parts = parts_for(force);
+    DelayColumn out{minus_rate(carried_ + columns_ * parts.head<2>(), step_, period_), {}};
+    for (const Eigen::MatrixXd& errors : rate_errors_) out.errors.emplace_back(errors * parts);
+    return out;
+  }
+
+  /// By how much a measured force is later than the motion, to first order, s.
+  double delay_in(const Eigen::VectorXd& force) const {
+    const Eigen::Vector3d parts = parts_for(force);
+    Eigen::MatrixXd all(columns_.rows(), 3);
+    all << columns_, minus_rate(carried_ + columns_ * parts.head<2>(), step_, period_);
+    Eigen::Matrix<double, 6, 3> errors = Eigen::Matrix<double, 6, 3>::Zero();
+    errors.topLeftCorner<2, 2>().setIdentity();
+    errors.col(2).tail<3>() = parts;
+    return solved(all, errors, force)[2];
+  }
+
+ private:
+  /// C_D, the inertia coefficient, and one of what is carried.
+  Eigen::Vector3d parts_for(const Eigen::VectorXd& force) const {
+    Eigen::Matrix<double, 6, 2> errors = Eigen::Matrix<double, 6, 2>::Zero();
+    errors.topRows<2>().setIdentity();
+    const Eigen::VectorXd x = solved(columns_, errors, force);
+    return {x[0], x[1], 1};
+  }
+
+  /// Least squares whose columns have errors that are those combinations of what the draws hold: AᵀA less the mean of
+  /// δAᵀδA, and the mean of δAᵀδc beside what is carried.
+  Eigen::VectorXd solved(const Eigen::MatrixXd& all, const Eigen::MatrixXd& errors,
+                         const Eigen::VectorXd& force) const {
+    const Eigen::VectorXd target = force - carried_;
+    if (gram_.isZero(0)) return hydro::dense::HouseholderQr(all).solve(target);
+    const Eigen::MatrixXd normal = all.transpose() * all - errors.transpose() * gram_ * errors;
+    return hydro::dense::PivotedQr(normal).solve(
+        Eigen::VectorXd(all.transpose() * target + errors.transpose() * gram_.col(2)));
+  }
+
+  Eigen::MatrixXd columns_;
+  Eigen::VectorXd carried_;
+  double step_, period_;
+  std::vector<Eigen::MatrixXd> rate_errors_;  // of minus_rate() of both columns and of what is carried, for each draw
+  Eigen::MatrixXd gram_ = Eigen::MatrixXd::Zero(6, 6);  // mean over the draws; those rates after what they are of
+};
+
 /// Where `step_at`, samples that a Gauss–Newton step would go from a lag, changes from forward to backward: the one
 /// root about `first`. At a bound that a step would cross: the bound.
 struct FoundLag {
@@ -163,27 +236,18 @@ DelayedFit fit_morison_and_delay(const Cylinder& cylinder, const ForceRecord& re
   MorisonOptions inner = options;
   for (ForceError& e : inner.force_errors) e.force = middle(e.force, margin);
 
-  const Eigen::MatrixXd columns = morison_columns(cylinder, aligned);
-  const Eigen::VectorXd carried = carried_force(cylinder, aligned);
-  const auto fitted = [&] {
-    return Eigen::VectorXd(carried +
-                           columns * hydro::dense::HouseholderQr(columns).solve(as_vector(aligned.force) - carried));
-  };
-  const double period =
-      2 * std::numbers::pi * as_vector(aligned.velocity).norm() / as_vector(aligned.acceleration).norm();
-  const std::ptrdiff_t first = nearest_lag(columns, carried, middle(record.force, 3), longest);
-  const auto column = [&] { return minus_rate(fitted(), step, period); };
-  // The coefficients are linear and follow at once; only the delay is searched for.
+  const auto [u2, a2] = flow_squares(aligned, Eigen::ArrayXd::Ones(std::ssize(aligned.velocity)));
+  const double period = 2 * std::numbers::pi * std::sqrt(u2 / a2);
+  const DelayEquations equations(cylinder, aligned, step, period);
+  const std::ptrdiff_t first = nearest_lag(equations.columns(), equations.carried(), middle(record.force, 3), longest);
   const auto step_at = [&](double lag) {
     aligned.force = later(record.force, lag, margin);
-    Eigen::MatrixXd all(columns.rows(), 3);
-    all << columns, column();
-    return hydro::dense::HouseholderQr(all).solve(as_vector(aligned.force) - carried)[2] / step;
+    return equations.delay_in(as_vector(aligned.force)) / step;
   };
   const auto [lag, beyond] = find_lag(step_at, static_cast<double>(first), static_cast<double>(longest), step);
   aligned.force = later(record.force, lag, margin);
-  const Eigen::VectorXd rate = column();
-  result.fit = fit_columns(cylinder, aligned, inner, &rate);
+  const DelayColumn column = equations.column_for(as_vector(aligned.force));
+  result.fit = fit_columns(cylinder, aligned, inner, &column);
   Coefficient& delay = *result.fit.delay;
   const double shift = lag * step;
   for (Interval* i : {&delay.interval, &delay.white_interval}) *i = {i->low + shift, i->high + shift};

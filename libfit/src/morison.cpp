@@ -123,15 +123,23 @@ void require_motion(const Eigen::MatrixXd& noise, const Eigen::MatrixXd& normal)
           "\"fourier_series\"");
 }
 
+/// Errors of all columns for one draw of the motion's noise.
+Eigen::MatrixXd errors_of_draw(const Cylinder& c, const ForceRecord& r, const MorisonColumns& at,
+                               const DelayColumn* delay, std::size_t draw) {
+  Eigen::MatrixXd out = column_errors(c, r.motion_errors[draw], at);
+  if (delay != nullptr) out.col(at.delay) = delay->errors[draw];
+  return out;
+}
+
 Attenuation attenuation(const Cylinder& c, const ForceRecord& r, const MorisonColumns& at,
-                        const Eigen::MatrixXd& columns, const Eigen::VectorXd& x) {
+                        const Eigen::MatrixXd& columns, const DelayColumn* delay, const Eigen::VectorXd& x) {
   const Eigen::Index p = columns.cols();
   const auto draws = std::ssize(r.motion_errors);
   if (draws == 0) return {Eigen::MatrixXd::Identity(p, p), Eigen::VectorXd::Zero(p), Eigen::VectorXd::Zero(p)};
   Eigen::MatrixXd noise = Eigen::MatrixXd::Zero(p, p), slopes(p, draws);  // E δAᵀδA; −δAᵀ(δy − δA x) of each draw
   for (Eigen::Index d = 0; d < draws; ++d) {
     const MotionError& e = r.motion_errors[static_cast<std::size_t>(d)];
-    const Eigen::MatrixXd errors = column_errors(c, e, at);
+    const Eigen::MatrixXd errors = errors_of_draw(c, r, at, delay, static_cast<std::size_t>(d));
     noise += errors.transpose() * errors / static_cast<double>(draws);
     slopes.col(d) = errors.transpose() * (errors * x + carried_error(c, e));
   }
@@ -145,13 +153,13 @@ Attenuation attenuation(const Cylinder& c, const ForceRecord& r, const MorisonCo
 
 /// Draws of what is known of the residuals, shape (n, draws): noise of the motion, and rounding of the force. (F69)
 Eigen::MatrixXd known_errors(const Cylinder& c, const ForceRecord& r, const MorisonColumns& at,
-                             const Eigen::VectorXd& x) {
+                             const DelayColumn* delay, const Eigen::VectorXd& x) {
   const std::size_t draws = std::max(r.motion_errors.size(), r.rounding.size());
   Eigen::MatrixXd out = Eigen::MatrixXd::Zero(std::ssize(r.force), static_cast<Eigen::Index>(draws));
   for (std::size_t d = 0; d < draws; ++d) {
     auto column = out.col(static_cast<Eigen::Index>(d));
     if (!r.motion_errors.empty())
-      column -= carried_error(c, r.motion_errors[d]) + column_errors(c, r.motion_errors[d], at) * x;
+      column -= carried_error(c, r.motion_errors[d]) + errors_of_draw(c, r, at, delay, d) * x;
     if (!r.rounding.empty()) column += as_vector(r.rounding[d]);
   }
   return out;
@@ -207,7 +215,7 @@ void describe_flow(const Cylinder& cylinder, const ForceRecord& record, double s
   hydro::require(velocity.norm() > 0 && acceleration.norm() > 0 && force.norm() > 0,
                  "force, velocity and acceleration must not be zero throughout");
   const Eigen::ArrayXd window = hann(velocity.size());
-  const double u2 = (window * velocity.array().square()).sum(), a2 = (window * acceleration.array().square()).sum();
+  const auto [u2, a2] = flow_squares(record, window);
   result.period = 2 * std::numbers::pi * std::sqrt(u2 / a2);  // (F9)
   const double duration = step * static_cast<double>(velocity.size());
   hydro::require(result.period <= duration, "the record of {:.4g} s is shorter than its main period of {:.4g} s",
@@ -365,14 +373,15 @@ void tell_bands(const Eigen::MatrixXd& columns, const Eigen::VectorXd& residuals
 }  // namespace
 
 MorisonFit fit_columns(const Cylinder& cylinder, const ForceRecord& record, const MorisonOptions& options,
-                       const Eigen::VectorXd* delay_column) {
+                       const DelayColumn* delay) {
   check(cylinder, record, options);
   MorisonFit result;
   const double step = hydro::signal::even_step(record.time);
   describe_flow(cylinder, record, step, result);
   const std::vector<double> line_hz = line_frequencies(record, options, step, result.period);
-  const MorisonColumns at(options, delay_column != nullptr);
-  const Eigen::MatrixXd columns = all_columns(cylinder, record, options, line_hz, delay_column);
+  const MorisonColumns at(options, delay != nullptr);
+  const Eigen::MatrixXd columns =
+      all_columns(cylinder, record, options, line_hz, delay != nullptr ? &delay->rate : nullptr);
   const auto force = as_vector(record.force);
   const Eigen::VectorXd target = force - carried_force(cylinder, record);
   const double rows = static_cast<double>(target.size()), unit = std::sqrt(force.squaredNorm() / rows);
@@ -392,7 +401,7 @@ MorisonFit fit_columns(const Cylinder& cylinder, const ForceRecord& record, cons
     scatter = robust.influence / robust.slope;  // (F39)
   }
   const Attenuation put_back = result.search.all_identifiable()
-                                   ? attenuation(cylinder, record, at, columns, x)
+                                   ? attenuation(cylinder, record, at, columns, delay, x)
                                    : Attenuation{{}, Eigen::VectorXd::Zero(columns.cols()), {}};
   x += put_back.change;
   const Eigen::VectorXd residuals = target - columns * x;
@@ -404,7 +413,7 @@ MorisonFit fit_columns(const Cylinder& cylinder, const ForceRecord& record, cons
   double shortest = result.period;
   for (const double hz : line_hz) shortest = std::min(shortest, 1 / hz);
   Uncertainty u = uncertainty_of(result.search, columns, scatter, unit, result.period / step, shortest / step,
-                                 known_errors(cylinder, record, at, x), put_back.gain, options);
+                                 known_errors(cylinder, record, at, delay, x), put_back.gain, options);
   u.shift = shift_per_degree(columns, record.force, step, result.period);
   result.budget = budget(cylinder, record, columns, x, u.shift, result, options);
   if (!put_back.change.isZero(0))

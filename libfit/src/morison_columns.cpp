@@ -1,5 +1,6 @@
 #include "morison_columns.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <numbers>
@@ -135,6 +136,17 @@ Eigen::MatrixXd column_errors(const Cylinder& c, const MotionError& e, const Mor
 }
 
 Eigen::VectorXd carried_error(const Cylinder& c, const MotionError& e) { return carried_force(c, as_record(e)); }
+
+FlowSquares flow_squares(const ForceRecord& record, const Eigen::ArrayXd& weights) {  // (F116)
+  const auto squares = [&](const std::vector<double>& v) { return (weights * as_vector(v).array().square()).sum(); };
+  const FlowSquares all{squares(record.velocity), squares(record.acceleration)};
+  FlowSquares out = all;
+  for (const MotionError& e : record.motion_errors) {
+    out.velocity -= squares(e.velocity) / static_cast<double>(record.motion_errors.size());
+    out.acceleration -= squares(e.acceleration) / static_cast<double>(record.motion_errors.size());
+  }
+  return {std::max(out.velocity, all.velocity / 2), std::max(out.acceleration, all.acceleration / 2)};
+}
 
 double peak_frequency(std::span<const double> r, double step, double period) {  // (F50)
   const double omega = 2 * std::numbers::pi / period,

@@ -19,6 +19,13 @@ Eigen::MatrixXd morison_columns(const Cylinder& cylinder, const ForceRecord& rec
 /// does too; zero for a body at rest.
 Eigen::VectorXd carried_force(const Cylinder& cylinder, const ForceRecord& record);
 
+/// Weighted squares of velocity and acceleration of the motion itself: less the mean of what its noise adds, of which
+/// more than half is not believed (F116).
+struct FlowSquares {
+  double velocity, acceleration;
+};
+FlowSquares flow_squares(const ForceRecord& record, const Eigen::ArrayXd& weights);
+
 /// Where a coefficient stands among the columns; −1 where it is not fitted.
 struct MorisonColumns {
   Eigen::Index linear = -1, offset = -1, lines = -1, delay = -1, count = 2;
@@ -38,8 +45,14 @@ Eigen::VectorXd carried_error(const Cylinder& cylinder, const MotionError& error
 /// (F50).
 double peak_frequency(std::span<const double> motion, double step_s, double period_s);
 
-/// fit_morison() with one more column −dF/dt, N/s, of which the coefficient is a delay in s; null: none.
+/// −dF/dt of the force that coefficients give, N/s, and its error for each draw of the motion's noise.
+struct DelayColumn {
+  Eigen::VectorXd rate;
+  std::vector<Eigen::VectorXd> errors;  ///< as many as motion_errors of the record
+};
+
+/// fit_morison() with one more column, of which the coefficient is a delay in s; null: none.
 MorisonFit fit_columns(const Cylinder& cylinder, const ForceRecord& record, const MorisonOptions& options,
-                       const Eigen::VectorXd* delay_column);
+                       const DelayColumn* delay);
 
 }  // namespace fit

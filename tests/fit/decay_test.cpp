@@ -174,6 +174,50 @@ TEST(Decay, CoversItsDampingForNoiseWithAMemory) {
   for (const int count : {omega, linear, quadratic}) EXPECT_GE(count, 86);  // 95 ± 2.2; four deviations
 }
 
+/// A roll decay that Coulomb friction c brings to rest long before its end, T = 5 s, with noise of a memory.
+fit::Window brought_to_rest(double linear, double coulomb, double noise, Eigen::Index samples, std::uint64_t stream) {
+  const std::vector<double> theta{2 * pi / 5, linear, 0, 0, coulomb, 0.02};
+  fit::Window w{0.1, fit::follow(MotionLaw::oscillator, theta, Eigen::Vector2d(0.25, 0), 0.1, samples, 8)};
+  const auto e = froude_test::ar1_noise(static_cast<std::size_t>(samples), 0.5, noise, stream);
+  for (Eigen::Index j = 0; j < samples; ++j) w.values(j, 0) += e[static_cast<std::size_t>(j)];
+  return w;
+}
+
+TEST(Decay, ThatComesToRestIsFittedWithTheRightNumberOfHalfCycles) {
+  // The cost has a valley for each number of half cycles before the rest. From the damping that energy gives, searches
+  // ended in another than the best in a third of these records, with 1.2 to 4 times the residuals.
+  struct Case {
+    double linear, coulomb, noise;
+    Eigen::Index samples;
+  };
+  for (const auto& [linear, coulomb, noise, samples] : {Case{0, 0.02, 0.002, 400}, Case{0.05, 0.005, 0.003, 600}})
+    for (std::uint64_t stream = 1; stream <= 8; ++stream) {
+      const std::vector<fit::Window> records{brought_to_rest(linear, coulomb, noise, samples, stream)};
+      const auto f = fit::fit_decay(records, {.terms = {.linear = true, .coulomb = true}});
+      // Noise that forgets in two samples is known to 5 % from 400; three of these. The next valley leaves 7 % to 90 %.
+      EXPECT_LT(f.motion.rms[0], 1.15 * noise) << stream;
+      const auto &b = f.motion.parameters[1], &c = f.motion.parameters[4];
+      // An interval of 95 % holds the truth of one record or not: five errors.
+      EXPECT_NEAR(f.motion.ended[1], linear, 5 * b.standard_error) << stream;
+      EXPECT_NEAR(f.motion.ended[4], coulomb, 5 * c.standard_error) << stream;
+      EXPECT_LT(c.standard_error, 0.1 * coulomb) << stream;  // it is told well all the same
+    }
+}
+
+TEST(Decay, ThatComesToRestHasHalvesThatAgree) {
+  // Halves of what swings: a half that lies at rest for the most part was fitted with a wrong number of half cycles,
+  // and half of such records were refused. Of right records one in a thousand is.
+  for (std::uint64_t stream = 1; stream <= 8; ++stream) {
+    const auto w = brought_to_rest(0.05, 0.005, 0.003, 600, stream);
+    fit::decay::Problem problem{
+        .turns = true, .runs = {{.source = {"roll.csv"}, .time = times(w), .motion = {}}}, .body = {}, .options = {}};
+    problem.runs[0].motion.assign(values(w).begin(), values(w).end());
+    problem.options.motion.terms = {.linear = true, .coulomb = true};
+    const auto solution = fit::decay::solve(problem);
+    EXPECT_FALSE(solution.report.refused) << stream << ": " << solution.report.refused->why;
+  }
+}
+
 TEST(Decay, SaysThatATermIsNotSeen) {
   const std::vector<fit::Window> records{decay(MotionLaw::oscillator, {2, 0.06, 0, 0, 0, 0}, 0.05, 600, 0.003, 0.5, 9)};
   const auto f = fit::fit_decay(records, {.terms = {.linear = true, .quadratic = true}});

@@ -137,6 +137,19 @@ TEST(SpoiltDecay, WhoseHalvesContradictEachOtherIsRefused) {
   EXPECT_LT(std::get<double>(*find(right.parts.at(0).facts, "halves_apart")), 1);
 }
 
+TEST(SpoiltDecay, TermThatDrivesTheMotionIsNamed) {
+  // Coulomb friction loses the same in each swing: a quadratic term has to give back what a linear one takes of large
+  // swings too much. Both halves of the record agree in that.
+  const auto friction = [](double x, double v) { return -x - 0.01 * std::tanh(v / 1e-3); };
+  const auto accepted = decayed(friction, {.linear = true, .quadratic = true}, 0.002, true);
+  ASSERT_FALSE(accepted.refused);
+  EXPECT_THAT(accepted.parts.at(0).cautions,
+              testing::Contains(AllOf(HasSubstr("quadratic ("), HasSubstr("comes out negative"))));
+  const auto quadratic = [](double x, double v) { return -x - 0.3 * std::abs(v) * v; };
+  const auto right = decayed(quadratic, {.linear = false, .quadratic = true}, 0.002);
+  EXPECT_THAT(right.parts.at(0).cautions, testing::Not(testing::Contains(HasSubstr("comes out negative"))));
+}
+
 TEST(SpoiltDecay, IsNotRefusedForItsNoise) {
   // One right record in a thousand is refused: of twelve, with a memory of ten samples, none.
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {

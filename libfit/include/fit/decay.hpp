@@ -58,6 +58,9 @@ struct DecayFit {
   std::vector<Coefficient> damping;  ///< those of the terms asked for
   Coefficient period;                ///< 2π/ω₀, s
   EnergyFit energy;                  ///< where the search began
+  /// The motion comes to rest, and several numbers of half cycles before that fit it: intervals hold those of all
+  /// (F114).
+  bool several_ends = false;
   double samples;
   /// Independent samples of the records: those of the fit with linear, quadratic and cubic damping, whatever terms were
   /// asked for, so that fits of the same records with different terms are compared by the same number (F33).

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "decay_rest.hpp"
 #include "fit/verdict.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/signal/distributions.hpp"
@@ -32,7 +33,7 @@ DecayOptions plain(const Options& options) {
   return out;
 }
 
-/// The same fit of one half of the record.
+/// The same fit of one half of a record.
 DecayFit fit_half(const Options& options, const Window& whole, bool first) {
   const Eigen::Index n = whole.values.rows(), half = n / 2;
   const Eigen::MatrixXd part = whole.values.middleRows(first ? 0 : half, first ? half : n - half);
@@ -191,6 +192,7 @@ bool replace_if_bent(const DecayFit& fit, std::size_t parameter, Coefficient& c)
 }
 
 void compare_with_likelihood(FittedRun& run) {
+  if (run.fit.several_ends) return;  // a profile would follow one of them alone
   const auto names = parameters_of(run.fit.problem.law);
   for (Coefficient& c : run.fit.damping) {
     const auto at = static_cast<std::size_t>(std::find(names.begin(), names.end(), c.name) - names.begin());
@@ -273,9 +275,11 @@ FittedRun fitted(const Problem& problem, const Source& source, std::vector<Recor
   tell_decrement(run);
   run.fit = fit_decay(windows, plain(options));
   require_explained(problem, run, run.fit.motion);
-  compare_halves(problem, windows[0], run);
+  // A rest tells nothing more, and half a record of it nothing at all (F114).
+  const Window moving = before_rest(windows[0], run.fit.motion.motion[0]);
+  compare_halves(problem, moving, run);
   compare_with_likelihood(run);
-  if (options.sensitivity && run.alone()) vary(options, windows[0], run);
+  if (options.sensitivity && run.alone()) vary(options, moving, run);
   if (problem.body) run.water = added_mass(run.fit, *problem.body, options.motion.confidence);
   if (options.memory) add_memory(problem, windows, run);
   run.left = residuals_of(run, windows[0]);

@@ -150,6 +150,20 @@ void add_halves(double apart, Report& report) {
              apart < 1 ? "" : "accepted: ", apart);
 }
 
+/// (F79) Terms that would feed the motion; with others beside them that brake it, so that no value is kept back.
+std::string caution_of_negative_terms(const FittedRun& run) {
+  std::vector<std::string> negative;
+  for (const Coefficient& c : run.fit.damping)
+    if (c.value && c.interval.high < 0)
+      negative.push_back(fmt::format("{} ({:.3g} to {:.3g})", c.name, c.interval.low, c.interval.high));
+  if (negative.empty()) return {};
+  return fmt::format(
+      "{} comes out negative, with its whole interval: still water and friction take energy from a motion. Another "
+      "term acts than those asked for, and the values of all of them make up for it: ask for another (coulomb for "
+      "losses that do not fall with the swings, linear or quadratic for those that do)",
+      fmt::join(negative, ", "));
+}
+
 Report told(const Problem& problem, const FittedRun& run) {
   const bool turns = problem.turns;
   Report report = begun(run, turns);
@@ -173,6 +187,7 @@ Report told(const Problem& problem, const FittedRun& run) {
   if (run.alone()) report.steps = run.records[0].steps;
   if (run.alone()) report.cautions = run.records[0].cautions;
   report.warn(run.fit.motion.caution);
+  report.warn(caution_of_negative_terms(run));
   if (run.water) report.parts.push_back(told(*run.water, turns));
   if (run.memory) report.parts.push_back(told_memory(run, turns));
   return report;
