@@ -367,7 +367,8 @@ class Refinement {
                        scene_.run->every / std::ceil(scene_.run->every / longest));
   }
   [[noreturn]] void refuse_memory(int level, std::size_t signal) const {
-    refuse(level, signal, scene_.accuracy - left_for_step(signal), scene_.accuracy, "the memory of radiated waves stands in the way",
+    refuse(level, signal, scene_.accuracy - left_for_step(signal), scene_.accuracy,
+           "the memory of radiated waves stands in the way",
            fmt::format("give radiation a finer memory_tolerance, {}", less_accuracy));
   }
 

@@ -126,7 +126,8 @@ Binding<hw::Focus> place_and_time(const std::string& title, const std::string& m
 Binding<Crest> crest() {
   return Binding<Crest>("[waves.crest]",
                         "a crest of given height at a place and time: the most probable wave that has it (NewWave)")
-      .key(positive("height", dim::length, "of the crest above still water, bound waves included where there are some"), &Crest::height)
+      .key(positive("height", dim::length, "of the crest above still water, bound waves included where there are some"),
+           &Crest::height)
       .part(place_and_time("", "", "where, as (x, y, 0)"), &Crest::focus)
       .words(text("around", "\"random sea\": put into the random sea; \"nothing\": alone")
                  .or_default("random sea", "waves before and after it are then those of the sea"),

@@ -50,7 +50,7 @@ heading = "30 deg"
 [[body]]
 name = "box"
 mass = "1200 kg"
-centre_of_gravity = "(0, 0, 0) m"
+centre_of_gravity = "(0, 0, -0.2) m"
 radii_of_gyration = "(0.4, 0.6, 0.7) m"
 [body.hydrodynamics]
 {}

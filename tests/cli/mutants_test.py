@@ -80,7 +80,7 @@ heading = "0 deg"
 [[body]]
 name = "b"
 mass = "2272 kg"
-centre_of_gravity = "(0, 0, 0.3) m"
+centre_of_gravity = "(0, 0, -0.6) m"
 radii_of_gyration = "(0.6, 0.6, 0.6) m"
 [body.hydrodynamics]
 excitation = true

@@ -131,7 +131,8 @@ TEST(FarFromPlace, TellsWhatKnowsNoOtherYaw) {
               AllOf(HasSubstr("the radiation of m as it turns"), testing::Not(HasSubstr("excitation"))));
 }
 
-// A quarter of the wave, 52 m long in 14 m of water, is 13 m; of the way 5.5 m are what a wave gives that begins at once.
+// A quarter of the wave, 52 m long in 14 m of water, is 13 m; of the way 5.5 m are what a wave gives that begins at
+// once.
 TEST(FarFromPlace, TellsOfPhasesWhereABodyGoesAway) {
   const auto told = [](const std::string& speed) {
     return testing::PrintToString(
