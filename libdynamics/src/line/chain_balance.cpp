@@ -81,10 +81,13 @@ FROUDE_INLINE void ChainBalance::add_segment(int j, const Instant& now, Balance&
   if (loads_.are_wet()) {
     const PerLength& c = loads_.per_length(j);
     const double lift = loads_.lifts_what_is_wet() ? c.lift : 0;
-    for (const WaterPoint& p : points(line_, j, bar.t, c, now, loads_.flow())) {
-      const Triple f = p.length * (drag(c, p) + inertia(p) + Triple{0, 0, lift});
-      first = first - (1 - p.s) * f;
-      second = second - p.s * f;
+    for (const Stretch& wet : wet_stretches(line_, j, now, loads_.flow())) {
+      if (wet.from == wet.to) continue;
+      for (const WaterPoint& p : points(line_, j, wet, bar.t, c, now, loads_.flow())) {
+        const Triple f = p.length * (drag(c, p) + inertia(p) + Triple{0, 0, lift});
+        first = first - (1 - p.s) * f;
+        second = second - p.s * f;
+      }
     }
   }
   first.add_to(out.force.col(j).data());
@@ -144,12 +147,17 @@ FROUDE_INLINE void ChainBalance::differentiate_water(int j, const Instant& now, 
   Matrix3d follow = Matrix3d::Zero();
   add_unit(-c.added, follow);
   add_outer(c.added, bar.t, bar.t, follow);
-  for (const WaterPoint& p : points(line_, j, bar.t, c, now, loads_.flow())) {
-    powers.add(c, p, loads_.lifts_what_is_wet());
-    const PointDerivatives d(c, p, bar.r);
-    spread(p, j, j, -1, 1, d.by_turning, by_place_);
-    spread(p, j, j, p.s - 1, -p.s, d.by_relative, by_velocity_);
-    spread(p, j, j, 1 - p.s, p.s, follow, by_acceleration_);
+  const double lift = loads_.lifts_what_is_wet() ? c.lift : 0;
+  for (const Stretch& wet : wet_stretches(line_, j, now, loads_.flow())) {
+    if (wet.from == wet.to) continue;
+    for (const WaterPoint& p : points(line_, j, wet, bar.t, c, now, loads_.flow())) {
+      powers.add(c, p, loads_.lifts_what_is_wet());
+      const PointDerivatives d(c, p, bar.r);
+      spread(p, j, j, -1, 1, d.by_turning, by_place_);
+      spread(p, j, j, p.s - 1, -p.s, d.by_relative, by_velocity_);
+      spread(p, j, j, 1 - p.s, p.s, follow, by_acceleration_);
+      if (p.by_depth > 0) spread_rise(p, j, j, 1, drag(c, p) + inertia(p) + Triple{0, 0, lift}, by_place_);
+    }
   }
 }
 

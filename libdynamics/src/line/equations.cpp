@@ -297,11 +297,21 @@ Equations::Outcome Equations::solve(Stage& stage, const State& before, double to
   return again;
 }
 
+/// What doubles can tell of balance, relative to places. At rest on a bed that is hard beside all pulls, no more than
+/// what its force changes by with the last digit of a place.
+double Equations::told(const Stage& stage) const {
+  double stiffness = scale_;
+  if (stage.still && !line_.description().bed.empty())
+    for (int i = 0; i < line_.nodes(); ++i)
+      stiffness = std::max(stiffness, line_.description().bed.front().stiffness * line_.bed_area(i));
+  return 4e-16 * stiffness / scale_;
+}
+
 Equations::Outcome Equations::newton(const Stage& stage, const State& before, double tolerance, int most, Places& u,
                                      VectorXd& T) {
   scale_for(stage, T);
   const double extent = before.position.cwiseAbs().maxCoeff(), rounding = stage.rounding * extent;
-  const double balanced = 4e-16 * extent * std::sqrt(static_cast<double>(rhs_.size()));  // all that doubles can tell
+  const double balanced = told(stage) * extent * std::sqrt(static_cast<double>(rhs_.size()));
   // At rest a straight line between two places has a length that nothing can change: its rounding asks for no tension.
   met_ = stage.still ? 4e-16 * extent : 0;
   Outcome out;

@@ -62,6 +62,10 @@ class Equations {
   void stay_in_piece_of(double t) { loads_.stay_in_piece_of(t); }
   double within() const { return loads_.within(); }
 
+  /// Whether the energy of what a step towards rest leads to, with (relax + margin)|u|²/2, is least there: pressed
+  /// links could give way otherwise. Of loads that have no energy the symmetric part of their change counts. (D157)
+  bool is_least(const Stage& stage, const State& before, const Places& u, const Eigen::VectorXd& T, double margin);
+
   /// Accelerations and tensions of a state (D77), in the flow that set_instant() has. False if masses leave them open.
   bool accelerations(const State& state, Places& a, Eigen::VectorXd& T, const Stage* flow_of = nullptr);
 
@@ -152,6 +156,7 @@ class Equations {
   double search(const Stage& stage, const State& before, double size, bool enough, bool last, Places& u,
                 Eigen::VectorXd& T);
   int worst_node() const;
+  double told(const Stage& stage) const;
   void scale_by_mass();
   void assemble_projection(const Places& along, const Places& x);
 

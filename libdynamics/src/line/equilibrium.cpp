@@ -5,6 +5,8 @@
 
 #include <cmath>
 #include <numbers>
+#include <optional>
+#include <random>
 
 #include "equations.hpp"
 #include "hydro/base/error.hpp"
@@ -182,43 +184,209 @@ Response pulls_at_rest(const Line& line, const State& rest, const std::vector<in
   return equations.response(stage, rest, Places::Zero(3, line.nodes()), rest.tension, prescribed, 0);
 }
 
-State equilibrium(const Line& line, const State& guess, RestReport* report) {
-  Equations equations(line);
-  RestReport sink;
-  RestReport& took = report != nullptr ? *report : sink;
-  const Places nothing = Places::Zero(3, line.nodes());
-  State state = guess;
-  state.velocity = nothing;
-  Stage stage = resting(guess);
+namespace {
+
+/// Largest force that acts on a node or in a segment, over the shortest length, N/m: of what resists a step first.
+double hardest_of(const Line& line, const State& guess) {
   double hardest = 0, shortest = std::numeric_limits<double>::infinity();
   for (int j = 0; j < line.segments(); ++j) shortest = std::min(shortest, line.segment(j).length);
   for (int i = 0; i < line.nodes(); ++i) hardest = std::max(hardest, line.constant_load().col(i).norm());
-  hardest = std::max(hardest, state.tension.cwiseAbs().maxCoeff()) / shortest;
+  hardest = std::max(hardest, guess.tension.cwiseAbs().maxCoeff()) / shortest;
   hardest = std::max(hardest, line.hardest_bending());
-  if (hardest == 0) hardest = 1;
-  constexpr int most = 400, iterations = 30;
-  Equations::Outcome outcome;
-  double relax = hardest;
-  for (took.steps = 1; took.steps <= most; ++took.steps) {
-    stage.relax = relax > 1e-9 * hardest ? relax : 0;
-    Places u = nothing;
-    VectorXd T = state.tension;
-    outcome = equations.solve(stage, state, 1e-10, iterations, u, T);
-    took.newton_iterations += outcome.iterations;
-    // Where nothing resists at all (slack line on a bed), it is enough that nothing moves any more.
-    const bool stays = u.cwiseAbs().maxCoeff() <= 1e-12 * line.length();
-    if (!outcome.converged && stage.relax == 0 && relax < 1e-12 * hardest) break;
-    if (!outcome.converged) {
-      relax *= stage.relax == 0 ? 100 : 8;
-      if (relax > 1e12 * hardest) break;
-      continue;
+  return hardest > 0 ? hardest : 1;
+}
+
+/// Moves free nodes by up to `size` along and up, always the same ways: what stands on its head does not fall by
+/// itself. `across`: out of the plane y = 0 too.
+void disturb(const Line& line, double size, bool across, Places& x) {
+  std::minstd_rand random(1);
+  for (int i = 0; i < line.nodes(); ++i)
+    for (int c = 0; c < 3; ++c) {
+      const double share = 2.0 * static_cast<double>(random()) / static_cast<double>(std::minstd_rand::max()) - 1;
+      if (line.held(i) == nullptr && (c != 1 || across)) x(c, i) += size * share;
     }
-    state.position += u;
-    state.tension = T;
-    if (stage.relax == 0 || (stays && relax < 1e-6 * hardest)) return state;
-    relax /= outcome.iterations < 8 ? 10 : 3;
+  for (int i = 0; i < line.nodes(); ++i) x.col(i) = x.col(line.same_as(i));
+}
+
+/// What is between nodes `a` and `b`, turned about the way between them until it is level.
+void lay_between(int a, int b, Places& x) {
+  const Vector3d way = x.col(b) - x.col(a);
+  const double level = way.head<2>().norm();
+  const Vector3d axis = level > 1e-9 * way.norm() ? Vector3d(way.normalized()) : Vector3d::UnitX();
+  for (int i = a + 1; i < b; ++i) {
+    const Vector3d from = x.col(i) - x.col(a), along = axis * axis.dot(from);
+    x.col(i) = x.col(a) + along + axis.cross(from - along);
   }
-  throw hydro::NumericsError(fmt::format("the line finds no rest: {}; node {} is worst", outcome.why, outcome.worst));
+}
+
+/// What is between node `a` and an end that is free, turned until it is level.
+void lay_end(int a, int end, Places& x) {
+  const int side = end > a ? 1 : -1;
+  const Places old = x;
+  for (int i = a; i != end; i += side) {
+    const Vector3d link = old.col(i + side) - old.col(i);
+    const double level = link.head<2>().norm();
+    const Vector3d towards =
+        level > 1e-9 * link.norm() ? Vector3d(link.x() / level, link.y() / level, 0) : Vector3d::UnitX();
+    x.col(i + side) = x.col(i) + link.norm() * towards;
+  }
+}
+
+/// Turns each stretch of free nodes that are `beyond` the bed or the surface until it is level, its links as long as
+/// they are: pushed back where they stand they would fold up.
+template <class Beyond>
+void lay(const Line& line, const Beyond& beyond, Places& x) {
+  const auto turns = [&](int i) { return line.held(i) == nullptr && line.tie(i) < 0 && beyond(i); };
+  for (int c = 0; c < line.chains(); ++c) {
+    const int first = line.first_of_chain(c), last = line.last_of_chain(c);
+    for (int i = first; i <= last; ++i) {
+      if (!turns(i)) continue;
+      const int a = i - 1;
+      while (i <= last && turns(i)) ++i;
+      if (a >= first && i <= last)
+        lay_between(a, i, x);
+      else if (a >= first)
+        lay_end(a, last, x);
+      else if (i <= last)
+        lay_end(i, first, x);
+    }
+  }
+}
+
+/// Where a line is near to a shape that stays: what hangs through the bed lies on it, and what water lifts in part
+/// hangs up from where it is held, as far as the surface, and lies there.
+State laid(const Line& line, const State& guess) {
+  State out = guess;
+  const Surroundings& water = line.description().water;
+  if (water.buoyancy && water.wet == Wet::below_surface && !line.bends()) {
+    Description lifted = line.description();
+    lifted.water.wet = Wet::all;
+    out = hanging_shape(Line(std::move(lifted)), guess);
+  }
+  Places& x = out.position;
+  if (!line.description().bed.empty()) {
+    const double bed = line.description().bed.front().z;
+    lay(
+        line, [&](int i) { return line.bed_area(i) > 0 && x(2, i) < bed; }, x);
+  }
+  if (water.wet == Wet::below_surface || line.has_bobs())
+    lay(
+        line, [&](int i) { return x(2, i) > 0; }, x);
+  return out;
+}
+
+/// The same with segments that are straight.
+Line straightened(const Line& line) {
+  Description d = line.description();
+  for (Segment& s : d.segments) s.catenary = false;
+  return Line(std::move(d));
+}
+
+/// Steps towards rest, each to where the line's energy with what resists the step is least. (D86), (D157)
+class Descent {
+ public:
+  Descent(const Line& line, const State& guess, RestReport& took)
+      : line_(line),
+        equations_(line),
+        took_(took),
+        state_(guess),
+        stage_(resting(guess)),
+        nothing_(Places::Zero(3, line.nodes())),
+        hardest_(hardest_of(line, guess)),
+        relax_(hardest_) {
+    state_.velocity = nothing_;
+  }
+
+  /// Nothing if links are pressed on the way that could give way, or it leads nowhere.
+  std::optional<State> rest_at_once() {
+    for (int i = 0; i < most; ++i) {
+      const Step step = this->step();
+      if (step == Step::done) return state_;
+      if (step == Step::unstable || step == Step::lost) break;
+    }
+    return std::nullopt;
+  }
+
+  State rest() {
+    for (int i = 0; i < most; ++i) {
+      const Step step = this->step();
+      if (step == Step::done) return state_;
+      if (step == Step::lost) break;
+    }
+    if (why_.empty()) why_ = fmt::format("it still moves after {} steps towards rest", most);
+    throw hydro::NumericsError(fmt::format("the line finds no rest: {}; node {} is worst", why_, outcome_.worst));
+  }
+
+ private:
+  enum class Step { taken, shorter, unstable, done, lost };
+  static constexpr int most = 1000;
+
+  Step step() {
+    constexpr int iterations = 30;
+    ++took_.steps;
+    stage_.relax = relax_ > 1e-9 * hardest_ ? relax_ : 0;
+    Places u = nothing_;
+    VectorXd T = state_.tension;
+    outcome_ = equations_.solve(stage_, state_, 1e-10, iterations, u, T);
+    took_.newton_iterations += outcome_.iterations;
+    // Where nothing resists at all (slack line on a bed), it is enough that nothing moves any more.
+    const bool stays = u.cwiseAbs().maxCoeff() <= 1e-12 * line_.length();
+    if (!outcome_.converged) {
+      why_ = outcome_.why;
+      return harder(stage_.relax == 0 ? 100 : 8, Step::shorter);
+    }
+    if (!equations_.is_least(stage_, state_, u, T, 1e-6 * hardest_)) {
+      why_ = "its links are pressed where they would give way";
+      if (u.cwiseAbs().maxCoeff() <= 1e-6 * line_.length())
+        disturb(line_, 1e-4 * line_.length() / line_.segments(), ++disturbed_ > 2, state_.position);
+      return harder(2, Step::unstable);
+    }
+    why_.clear();
+    state_.position += u;
+    state_.tension = T;
+    if (stage_.relax == 0 || (stays && relax_ < 1e-6 * hardest_)) return Step::done;
+    relax_ /= outcome_.iterations < 8 ? eager_ : std::min(eager_, 3.0);
+    eager_ = std::min(10.0, 1.5 * eager_);
+    return Step::taken;
+  }
+
+  /// The next step is shorter, and those after it grow more slowly for a while.
+  Step harder(double by, Step step) {
+    if (stage_.relax == 0 && relax_ < 1e-12 * hardest_) return Step::lost;
+    relax_ *= by;
+    eager_ = 1.5;
+    return relax_ > 1e12 * hardest_ ? Step::lost : step;
+  }
+
+  const Line& line_;
+  Equations equations_;
+  RestReport& took_;
+  State state_;
+  Stage stage_;
+  const Places nothing_;
+  const double hardest_;
+  double relax_, eager_ = 10;
+  int disturbed_ = 0;
+  Equations::Outcome outcome_;
+  std::string why_;
+};
+
+}  // namespace
+
+State equilibrium(const Line& line, const State& guess, RestReport* report) {
+  RestReport sink;
+  RestReport& took = report != nullptr ? *report : sink;
+  took = {};
+  if (const auto found = Descent(line, guess, took).rest_at_once()) return *found;
+  State near = laid(line, guess);
+  // Slack segments that hang through are too soft to be led anywhere.
+  bool catenary = false;
+  for (int j = 0; j < line.segments(); ++j) catenary = catenary || line.segment(j).catenary;
+  if (catenary) {
+    const Line straight = straightened(line);
+    near = Descent(straight, near, took).rest();
+  }
+  return Descent(line, near, took).rest();
 }
 
 }  // namespace dynamics::line

@@ -123,25 +123,30 @@ void Loads::add_timed_loads(double t, Places& force) const {
 }
 
 void Loads::add_water(int j, const Motion& now, const By& by, Places& force, Blocks* derivative) const {
-  const PerLength& c = per_length(j);
-  const bool lifted = lifts_what_is_wet();
-  const int first = line_.first(j), second = first + 1;
-  const Vector3d d = now.x.col(second) - now.x.col(first), axis = d.normalized();
-  for (const WaterPoint& p : points(line_, j, Triple::of(axis), c, now, flow_)) {
-    if (p.length == 0) continue;
-    Vector3d f = (drag(c, p) + inertia(p)).vector();
-    if (lifted) f.z() += c.lift;
-    const double share[2] = {p.length * (1 - p.s), p.length * p.s};
-    force.col(first) += share[0] * f;
-    force.col(second) += share[1] * f;
-    if (derivative == nullptr) continue;
-    const PointDerivatives of(c, p, d.norm());
-    Matrix3d follow = -by.v * of.by_relative;
-    add_unit(-by.a * c.added, follow);
-    add_outer(by.a * c.added, p.axis, p.axis, follow);
-    spread(p, j, first, -by.x, by.x, of.by_turning, *derivative);
-    spread(p, j, first, 1 - p.s, p.s, follow, *derivative);
+  const Triple axis = Triple::of((now.x.col(line_.first(j) + 1) - now.x.col(line_.first(j))).normalized());
+  for (const Stretch& wet : wet_stretches(line_, j, now, flow_)) {
+    if (wet.from == wet.to) continue;
+    for (const WaterPoint& p : points(line_, j, wet, axis, per_length(j), now, flow_))
+      add_point(j, p, now, by, force, derivative);
   }
+}
+
+void Loads::add_point(int j, const WaterPoint& p, const Motion& now, const By& by, Places& force,
+                      Blocks* derivative) const {
+  const PerLength& c = per_length(j);
+  const int first = line_.first(j), second = first + 1;
+  Triple f = drag(c, p) + inertia(p);
+  if (lifts_what_is_wet()) f.z += c.lift;
+  force.col(first) += p.length * (1 - p.s) * f.vector();
+  force.col(second) += p.length * p.s * f.vector();
+  if (derivative == nullptr) return;
+  const PointDerivatives of(c, p, (now.x.col(second) - now.x.col(first)).norm());
+  Matrix3d follow = -by.v * of.by_relative;
+  add_unit(-by.a * c.added, follow);
+  add_outer(by.a * c.added, p.axis, p.axis, follow);
+  spread(p, j, first, -by.x, by.x, of.by_turning, *derivative);
+  spread(p, j, first, 1 - p.s, p.s, follow, *derivative);
+  if (p.by_depth > 0) spread_rise(p, j, first, by.x, f, *derivative);
 }
 
 LoadPowers Loads::powers(const Motion& now) {
@@ -151,8 +156,9 @@ LoadPowers Loads::powers(const Motion& now) {
   for (int j = 0; are_wet() && j < line_.segments(); ++j) {
     const PerLength& c = per_length(j);
     const int first = line_.first(j);
-    const Vector3d axis = (now.x.col(first + 1) - now.x.col(first)).normalized();
-    for (const WaterPoint& p : points(line_, j, Triple::of(axis), c, now, flow_)) out.add(c, p, lifted);
+    const Triple axis = Triple::of((now.x.col(first + 1) - now.x.col(first)).normalized());
+    for (const Stretch& wet : wet_stretches(line_, j, now, flow_))
+      for (const WaterPoint& p : points(line_, j, wet, axis, c, now, flow_)) out.add(c, p, lifted);
   }
   add_powers_at_nodes(now, out);
   return out;

@@ -100,6 +100,7 @@ class Loads {
  private:
   void add_node_forces(const Motion& now, const By& by, Places& force, Blocks* derivative) const;
   void add_water(int j, const Motion& now, const By& by, Places& force, Blocks* derivative) const;
+  void add_point(int j, const WaterPoint& p, const Motion& now, const By& by, Places& force, Blocks* derivative) const;
   void add_bobs(const Motion& now, const By& by, Places& force, Blocks* derivative) const;
   void add_bob_powers(const Motion& now, LoadPowers& out) const;
 

@@ -12,13 +12,15 @@
 
 namespace dynamics::line {
 
-/// One point of a segment: where, what length of wet line it stands for, and what flows past.
+/// One point of a segment: where, what length of wet line it stands for, by how much that grows per metre that the
+/// point goes down, and what flows past.
 struct WaterPoint {
-  double s, length;
+  double s, length, by_depth;
   Triple axis, water, relative, inertial;  // t, u, u − w, and y = (1 + C_A)ρA u̇ − C_A ρA ẇ
 };
 
-/// The share of a segment that is under water, its surface straight between heights g₀, g₁ above the ends.
+/// The part of a segment above whose ends the surface, straight between them, is by more than a level: g₀, g₁ the
+/// heights of the surface above that level.
 inline std::array<double, 2> wet_interval(double g0, double g1) {
   if (g0 >= 0 && g1 >= 0) return {0, 1};
   if (g0 < 0 && g1 < 0) return {0, 0};
@@ -26,16 +28,39 @@ inline std::array<double, 2> wet_interval(double g0, double g1) {
   return g0 < 0 ? std::array{at, 1.0} : std::array{0.0, at};
 }
 
-/// Both Gauss points of the wet part of segment j, along `axis`: exact for the added mass of a rod, of third order in
-/// the drag.
-FROUDE_INLINE std::array<WaterPoint, 2> points(const Line& line, int j, const Triple& axis, const PerLength& c,
-                                               const Motion& now, const std::vector<Flow>& water) {
+/// A stretch of a segment whose section is wet by the same share, or by one that is straight along it.
+struct Stretch {
+  double from = 0, to = 0;            // shares of the length
+  double share = 1, share_along = 0;  // of the section that is wet where s = 0, and by s
+  double by_depth = 0;                // of that share, 1/m
+};
+
+/// What of segment j is wet: where the surface cuts it, the share ½ + depth/D of the section; and what is under water
+/// whole. A line that floats level has a lift that way, not all or nothing. (D158)
+inline std::array<Stretch, 2> wet_stretches(const Line& line, int j, const Motion& now,
+                                            const std::vector<Flow>& water) {
+  if (line.description().water.wet != Wet::below_surface) return {Stretch{.from = 0, .to = 1}, Stretch{}};
+  const int first = line.first(j);
+  const double g0 = water[static_cast<std::size_t>(first)].elevation - now.x(2, first),
+               g1 = water[static_cast<std::size_t>(first) + 1].elevation - now.x(2, first + 1),
+               radius = line.segment(j).diameter / 2;
+  const auto whole = wet_interval(g0 - radius, g1 - radius), any = wet_interval(g0 + radius, g1 + radius);
+  const Stretch under{.from = whole[0], .to = whole[1]};
+  Stretch cut{.share = 0.5 + g0 / (2 * radius), .share_along = (g1 - g0) / (2 * radius), .by_depth = 0.5 / radius};
+  const bool none = whole[0] == whole[1];
+  cut.from = none || g0 < g1 ? any[0] : whole[1];
+  cut.to = none || g0 >= g1 ? any[1] : whole[0];
+  if (!(radius > 0)) cut.to = cut.from;
+  return {under, cut};
+}
+
+/// Both Gauss points of a stretch of segment j, along `axis`: exact for the added mass of a rod and for what lifts, of
+/// third order in the drag.
+FROUDE_INLINE std::array<WaterPoint, 2> points(const Line& line, int j, const Stretch& wet, const Triple& axis,
+                                               const PerLength& c, const Motion& now, const std::vector<Flow>& water) {
   const int first = line.first(j), second = first + 1;
   const Flow &k0 = water[static_cast<std::size_t>(first)], &k1 = water[static_cast<std::size_t>(second)];
-  std::array<double, 2> wet{0, 1};
-  if (line.description().water.wet == Wet::below_surface)
-    wet = wet_interval(k0.elevation - now.x(2, first), k1.elevation - now.x(2, second));
-  const double middle = (wet[0] + wet[1]) / 2, half = (wet[1] - wet[0]) / 2;
+  const double middle = (wet.from + wet.to) / 2, half = (wet.to - wet.from) / 2;
   const Triple u0 = Triple::of(k0.velocity), u1 = Triple::of(k1.velocity);
   const Triple w0 = column(now.v, first), w1 = column(now.v, second);
   const double moved = c.displaced + c.added;
@@ -45,7 +70,14 @@ FROUDE_INLINE std::array<WaterPoint, 2> points(const Line& line, int j, const Tr
   for (std::size_t g = 0; g < 2; ++g) {
     const double s = middle + (g == 0 ? -half : half) / std::numbers::sqrt3, r = 1 - s;
     const Triple u = r * u0 + s * u1;
-    out[g] = {s, half * line.segment(j).length, axis, u, u - (r * w0 + s * w1), r * y0 + s * y1};
+    const double length = half * line.segment(j).length;
+    out[g] = {s,
+              (wet.share + wet.share_along * s) * length,
+              wet.by_depth * length,
+              axis,
+              u,
+              u - (r * w0 + s * w1),
+              r * y0 + s * y1};
   }
   return out;
 }
@@ -91,6 +123,20 @@ FROUDE_INLINE void spread(const WaterPoint& p, int j, int first, double by_first
   add(share[0] * by_second, per_length, out.upper[at]);
   add(share[1] * by_first, per_length, out.lower[at]);
   add(share[1] * by_second, per_length, out.diagonal[node + 1]);
+}
+
+/// The same of what a load f per length changes by where its point goes up or down through the surface.
+FROUDE_INLINE void spread_rise(const WaterPoint& p, int j, int first, double by_place, const Triple& f, Blocks& out) {
+  Eigen::Matrix3d rising = Eigen::Matrix3d::Zero();
+  f.put(rising.data() + 6);
+  const WaterPoint rate{.s = p.s,
+                        .length = -by_place * p.by_depth,
+                        .by_depth = 0,
+                        .axis = {},
+                        .water = {},
+                        .relative = {},
+                        .inertial = {}};
+  spread(rate, j, first, 1 - p.s, p.s, rising, out);
 }
 
 }  // namespace dynamics::line

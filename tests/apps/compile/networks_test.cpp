@@ -85,6 +85,20 @@ TEST(Networks, MayBeOneLineWithAFloat) {
   EXPECT_NEAR(record.signal("rope.from.force").back(), 9.81 * (1000 * V - 50 - 27), 1e-6);
 }
 
+// It began above the water, on top of its rope, which stood there as a pressed column.
+TEST(Networks, LetAFloatOnALongRopeDownToTheSurface) {
+  const std::string buoy =
+      "[[junction]]\nname = \"buoy\"\nmass = \"50 kg\"\ndiameter = \"0.8 m\"\nbuoyancy = true\npartial_immersion = "
+      "true\n";
+  const auto record =
+      simulate(parse(water + buoy + line("rope", "from = \"(0, 0, -14) m\"\non = { to = \"buoy\" }", 20, 20) + ask));
+  // Both ends carry the slack rope between them, the float 17 m of it less what it lies above the surface, to half of
+  // a link.
+  const double h = 0.4 - record.signal("buoy.z").front(), share = h * h * (1.2 - h) / (4 * 0.064);
+  EXPECT_NEAR(share * 1000 * M_PI / 6 * 0.512, 50 + 17 * 2, 0.5 * 2 + 0.1);
+  EXPECT_GT(record.signal("rope.link1.tension").front(), 0);
+}
+
 // 2 m down to where the end is tied, then a loop of 6 m, each strand of which hangs 3 m with its own weight.
 TEST(Networks, MayBeALasso) {
   const auto record =

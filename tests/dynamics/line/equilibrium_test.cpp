@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "dynamics/line/catenary.hpp"
 #include "dynamics/line/stepper.hpp"
@@ -164,6 +165,97 @@ TEST(Equilibrium, OfALightTautLineInACurrentIsAParabola) {
   const double q = 0.5 * 1000 * 1.2 * d_line * U * U, H = q * gap * std::sqrt(gap / (24 * slack));
   EXPECT_NEAR(s.tension[n / 2], H, 2e-3 * H);  // (sag/gap)² = 4e-5, and 1/n² of the polygon
   EXPECT_NEAR(s.position(1, n / 2), q * gap * gap / (8 * H), 2e-3 * q * gap * gap / (8 * H));
+}
+
+const hydro::Water sea{.density = 1025, .gravity = 9.81, .depth = hydro::WaterDepth::from_metres(8)};
+std::shared_ptr<const hydro::waves::WaveField> at_sea(double current = 0) {
+  return std::make_shared<hydro::waves::HarmonicField>(std::vector<hydro::waves::Harmonic>{}, sea,
+                                                       hydro::waves::HarmonicField::Options{},
+                                                       hydro::waves::Current::uniform({current, 0}));
+}
+
+/// A hose that floats, 1 kg/m and 50 mm thick, from an anchor at 8 m; in water it is lifted by 10.1 N/m.
+Description hose(double length, int n, double current = 0) {
+  Description d;
+  d.nodes.assign(static_cast<std::size_t>(n) + 1, Node{});
+  Segment s = Segment::rod(length / n, length / n);
+  s.diameter = 0.05;
+  s.cd = 1.2;
+  s.cd_tangential = 0.02;
+  d.segments.assign(static_cast<std::size_t>(n), s);
+  d.held = {{.node = 0}};
+  d.water = {.field = at_sea(current), .wet = Wet::below_surface, .buoyancy = true};
+  return d;
+}
+const double hose_lift = (1025 * 3.141592653589793 / 4 * 0.05 * 0.05 - 1) * 9.81;  // N/m
+State anchored(const Line& line) {
+  State s = ends_at(line, {0, 0, 0});
+  s.position.row(2).setConstant(-8);
+  return hanging_shape(line, s);
+}
+
+// Its guess hangs from the anchor through the bed: in balance, as a pressed pole that would fall upwards.
+TEST(Equilibrium, LetsWhatStandsOnItsHeadTurnOver) {
+  const Line line(hose(5, 40));
+  const State s = equilibrium(line, anchored(line));
+  EXPECT_NEAR(s.position(2, 40), -3, 1e-9);  // of rounding
+  EXPECT_NEAR(s.tension[0], hose_lift * (5 - 5.0 / 80), 1e-9);
+  EXPECT_GE(s.tension.minCoeff(), 0);
+}
+
+// Longer than the water is deep it rises to the surface and floats there with half of its section wet, as heavy as it
+// is: 1/(ρA) of ½ + depth/D. Up to where it leaves the anchor it hangs straight.
+TEST(Equilibrium, LetsALongHoseFloatAtTheSurface) {
+  for (const double current : {0.0, 0.2}) {
+    const Line line(hose(20, 40, current));
+    const State s = equilibrium(line, anchored(line));
+    EXPECT_GE(s.tension.minCoeff(), -1e-6) << current;  // N: what floats without current has none
+    const double share = 9.81 / (hose_lift + 9.81);
+    for (int i = 36; i <= 40; ++i) EXPECT_NEAR(s.position(2, i), (0.5 - share) * 0.05, 1e-5) << current << ' ' << i;
+    EXPECT_GT(s.position(0, 40), 11.9) << current;
+    // The links that rise through the surface are turned by as much as they are stiff: a link of 0.5 m in 8 m.
+    EXPECT_NEAR(s.tension[0], hose_lift * 8, 0.07 * hose_lift * 8) << current;
+  }
+}
+
+// 12 m of rope in 8 m of water: its float lies at the surface and carries half of the slack rope at least.
+TEST(Equilibrium, LetsAFloatDownToTheSurface) {
+  Description d;
+  d.nodes.assign(21, Node{});
+  d.segments.assign(20, Segment::rod(0.6, 0.3));
+  d.nodes[20] = {.mass = 5, .bob = {.diameter = 0.4, .wet = Wet::below_surface, .buoyancy = true}};
+  d.held = {{.node = 0}};
+  d.water = {.field = at_sea(), .wet = Wet::nothing};
+  const Line line(d);
+  const State s = equilibrium(line, anchored(line));
+  // What hangs on the float is 10 m less half of a link: it is wet by the share that lifts that, within that half.
+  const double height = 0.2 - s.position(2, 20), share = height * height * (0.6 - height) / (4 * 0.008);
+  EXPECT_NEAR(share * 1025 * 9.81 * 3.141592653589793 / 6 * 0.064, (5 + 10 * 0.5) * 9.81, 0.4 * 0.5 * 9.81);
+  EXPECT_GE(s.tension.minCoeff(), -1e-6);  // N: next to none in the lowest link
+}
+
+// A chain that is longer than its way down and along the bed hangs straight and lies on the bed: wh at its top.
+TEST(Equilibrium, LaysASlackChainOnItsBed) {
+  for (const double stiffness : {3e8, std::numeric_limits<double>::infinity()}) {
+    Description d;
+    d.nodes.assign(41, Node{});
+    Segment link = Segment::rod(2, 160);
+    link.diameter = 0.1;
+    link.axial_stiffness = stiffness;
+    d.segments.assign(40, link);
+    d.held = {{.node = 0}, {.node = 40}};
+    d.water = {.field = at_sea(), .wet = Wet::all, .buoyancy = true};
+    d.bed = {{.z = -60, .stiffness = 1e6, .damping = 1e5}};
+    const Line line(d);
+    State ends = ends_at(line, {0, 0, -60});
+    ends.position.col(0) = Vector3d(2, 0, -3);
+    const State s = equilibrium(line, hanging_shape(line, ends));
+    const double weight = (80 - 1025 * 3.141592653589793 / 4 * 0.01) * 9.81;
+    // The lowest link that hangs is carried by the bed in part; it sinks by 7 mm.
+    EXPECT_NEAR(s.tension[0], weight * 56, weight) << stiffness;
+    EXPECT_GT(s.position.row(2).minCoeff(), -60.05) << stiffness;
+    EXPECT_GE(s.tension.minCoeff(), -1e-3 * weight) << stiffness;
+  }
 }
 
 TEST(Equilibrium, SaysWhatFalls) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "dynamics/line/node_damping.hpp"
@@ -197,6 +198,48 @@ TEST(LineLoads, WhatIsOutOfTheWaterFeelsNoneOfIt) {
   EXPECT_NEAR(f.row(0).sum(), 0.5 * 1000 * 1.3 * 0.2 * 0.25 * 2.5, 1e-9);
   EXPECT_NEAR(f.row(2).sum(), 1000 * 9.81 * 3.141592653589793 / 4 * 0.04 * 2.5, 1e-9);
   EXPECT_EQ(f.col(4).norm(), 0);
+}
+
+// (D158): a line that floats level is wet by ½ + depth/D of its section, and lifted as much.
+TEST(LineLoads, GrowAsASectionDipsIntoTheWater) {
+  Description d = wet_line(Wet::below_surface, 0);
+  d.gravity = 0;
+  for (Node& n : d.nodes) n.forces.clear();
+  const Line line(d);
+  Places x(3, 5), zero = Places::Zero(3, 5);
+  const double whole = 1000 * 9.81 * 3.141592653589793 / 4 * 0.04 * 4;
+  for (const double depth : {-0.2, -0.1, -0.05, 0.0, 0.03, 0.1, 0.3}) {
+    for (int i = 0; i < 5; ++i) x.col(i) = Vector3d(i, 0, -depth);
+    EXPECT_NEAR(force(line, x, zero, zero).row(2).sum(), whole * std::clamp(0.5 + depth / 0.2, 0.0, 1.0), 1e-9)
+        << depth;
+  }
+}
+
+// Where links go through the surface, steeply or nearly level.
+TEST(LineLoads, HaveTheDerivativesOfWhatTheSurfaceCuts) {
+  Description d = wet_line(Wet::below_surface, 0.4);
+  const Line line(d);
+  const Places zero = Places::Zero(3, 5);
+  Places x(3, 5);
+  for (int i = 0; i < 5; ++i) x.col(i) = Vector3d(0.9 * i, 0.1 * i, i < 2 ? 0.4 * i - 0.6 : 0.03 * i - 0.1);
+  Loads loads(line);
+  Places out = Places::Zero(3, 5);
+  Blocks by;
+  by.set_zero(5, 4);
+  loads.add({0, x, zero, zero}, {1, 0, 0}, out, &by);
+  constexpr double small = 1e-6;
+  for (int i = 1; i < 4; ++i) {
+    Places up = x, down = x;
+    up(2, i) += small;
+    down(2, i) -= small;
+    const Places slope = (force(line, up, zero, zero) - force(line, down, zero, zero)) / (2 * small);
+    const auto at = static_cast<std::size_t>(i);
+    // N/m, of 2000: where the Gauss points go is left out of drag, which is not straight along a link
+    EXPECT_LT((slope.col(i) - by.diagonal[at].col(2)).norm(), 2) << i;
+    EXPECT_LT((slope.col(i + 1) - by.lower[at].col(2)).norm(), 2) << i;
+    EXPECT_LT((slope.col(i - 1) - by.upper[at - 1].col(2)).norm(), 2) << i;
+    EXPECT_LT(by.diagonal[at](2, 2), -20) << i;  // N/m: there is something to tell
+  }
 }
 
 TEST(LineLoads, PowersAreForcesTimesVelocities) {

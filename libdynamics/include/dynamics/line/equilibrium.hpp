@@ -19,8 +19,9 @@ struct RestReport {
 };
 
 /// Rest under all loads at the time of `guess` with velocities zero: steps of steepest descent made implicit, longer
-/// and longer, then Newton (D86). `guess` has its held nodes in place and its lengths kept or nearly so. \throws
-/// hydro::NumericsError with what is left over and at which node
+/// and longer, then Newton (D86). `guess` has its held nodes in place and its lengths kept or nearly so. A shape that
+/// would fall over or buckle is none: from there the line is let down to one that stays (D157). \throws
+/// hydro::NumericsError saying why there is none, and which node is worst
 State equilibrium(const Line& line, const State& guess, RestReport* report = nullptr);
 
 /// What the held nodes `prescribed` need at rest; by places it follows the static stiffness of the line, by velocities
