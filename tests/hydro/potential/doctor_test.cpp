@@ -12,6 +12,7 @@
 #include "hydro/cylinders/solve.hpp"
 #include "hydro/potential/doctor/check.hpp"
 #include "hydro/potential/operations/operations.hpp"
+#include "hydro/potential/operations/transformations.hpp"
 #include "support/reference_data.hpp"
 
 namespace doctor_test {
@@ -27,6 +28,18 @@ using ::testing::HasSubstr;
 /// Two boxes in a row along x, four headings from 0 to 90 degrees, deep water.
 const Coefficients& boxes() {
   static const Coefficients c = example("box2.nc");
+  return c;
+}
+/// A pontoon, headings of 0, 45 and 90 degrees, 14 m of water.
+const Coefficients& pontoon() {
+  static const Coefficients c = example("pontoon1.nc");
+  return c;
+}
+/// The same for headings all round.
+const Coefficients& pontoon_all_round() {
+  using hydro::potential::completed_by_symmetry, hydro::potential::MirrorPlane;
+  static const Coefficients c =
+      completed_by_symmetry(completed_by_symmetry(pontoon(), MirrorPlane::y0), MirrorPlane::x0);
   return c;
 }
 /// A hemisphere, one heading, deep water.
@@ -163,6 +176,12 @@ const std::vector<Corruption>& corruptions() {
          c.B[20](2, 2) *= 1.4;
        }},
       {"OneValueOfBIsWrong", "spikes", error, hemisphere, [](Coefficients& c) { c.B[12](2, 2) *= 2; }},
+      {"OneLoadIsWrong", "spikes", error, pontoon, [](Coefficients& c) { c.X[0](2, 8) *= 3; }},
+      {"OneLoadOfOneHeadingIsWrong", "spikes", error, hemisphere, [](Coefficients& c) { c.X[0](2, 12) *= 2; }},
+      {"TheLoadsOfOneFrequencyAreWrong", "spikes", warning, pontoon,
+       [](Coefficients& c) {
+         for (auto& X : c.X) X(2, 8) *= 0.6;
+       }},
       {"TheTableEndsAtThePeakOfDamping", "high-frequency tail", warning, hemisphere,
        [](Coefficients& c) { keep_frequencies(c, 0, 14); }},
       {"TheTableBeginsLate", "low-frequency tail", warning, hemisphere,
@@ -227,6 +246,14 @@ const std::vector<Corruption>& corruptions() {
          for (auto& X : c.X) X /= 2;
        }},
       {"RollAndPitchOfXAreExchanged", "Haskind relation", error, boxes,
+       [](Coefficients& c) {
+         for (auto& X : c.X) X.row(3).swap(X.row(4));
+       }},
+      {"RollAndPitchOfXAreExchangedInSymmetricData", "Haskind relation", error, pontoon,
+       [](Coefficients& c) {
+         for (auto& X : c.X) X.row(3).swap(X.row(4));
+       }},
+      {"RollAndPitchOfXAreExchangedAllRound", "Haskind relation", error, pontoon_all_round,
        [](Coefficients& c) {
          for (auto& X : c.X) X.row(3).swap(X.row(4));
        }},
@@ -346,6 +373,42 @@ TEST(Doctor, SaysNothingAgainstExactCylinders) {
       EXPECT_EQ(told(check(solved.coefficients)), "nothing") << depth << " m deep, " << bodies.size() << " bodies";
     }
   }
+}
+
+/// Adds to heave the memory α e^{−γt} cos ω₀t of water that sloshes in the body: causal by itself, and without A(∞).
+Coefficients with_resonance(Coefficients c, double omega_0, double gamma, double alpha) {
+  for (std::size_t w = 0; w < c.omega.size(); ++w) {
+    const std::complex<double> s(gamma, c.omega[w]), Z = alpha * s / (s * s + omega_0 * omega_0);
+    c.B[w](2, 2) += Z.real();
+    c.A[w](2, 2) += Z.imag() / c.omega[w];
+  }
+  const double square = omega_0 * omega_0, damping = gamma * gamma;
+  (*c.A_zero)(2, 2) += alpha * (square - damping) / ((square + damping) * (square + damping));
+  return c;
+}
+
+Finding found(const Coefficients& c, const std::string& name) {
+  for (const Finding& f : check(c))
+    if (f.check == name) return f;
+  ADD_FAILURE() << "no finding " << name;
+  return {};
+}
+
+/// (P45): the same A(∞) is right in all three; in the second the spacing misses a narrow resonance.
+TEST(Doctor, TellsATableThatIsTooCoarseFromAWrongLimit) {
+  const std::size_t at = 12;
+  const double omega_0 = hemisphere().omega[at], spacing = hemisphere().omega[at + 1] - omega_0;
+  // At slow motions the resonance adds α/ω₀² to the added mass: half of what the hemisphere has.
+  const double alpha = 0.5 * hemisphere().A[0](2, 2) * omega_0 * omega_0;
+  const Finding wide = found(with_resonance(hemisphere(), omega_0, 2 * spacing, alpha), "A(inf) by Ogilvie");
+  EXPECT_EQ(wide.severity, Severity::note) << wide.message;
+  const Finding narrow = found(with_resonance(hemisphere(), omega_0, 0.1 * spacing, alpha), "A(inf) by Ogilvie");
+  EXPECT_GE(narrow.severity, Severity::warning);
+  EXPECT_THAT(narrow.message, HasSubstr("the table is too coarse"));
+  EXPECT_THAT(narrow.remedy, HasSubstr(fmt::format("{:.4g}", omega_0)));
+  Coefficients wrong = boxes();
+  wrong.A_inf = wrong.A_zero;
+  EXPECT_THAT(found(wrong, "A(inf) by Ogilvie").remedy, HasSubstr("compute A(∞) again"));
 }
 
 TEST(Doctor, KnowsABodyWhollyUnderWater) {

@@ -7,6 +7,7 @@
 #include "doctor.hpp"
 #include "hydro/radiation/tail.hpp"
 #include "potential/readers.hpp"
+#include "spikes.hpp"
 
 namespace hydro::potential::doctor {
 namespace {
@@ -129,6 +130,71 @@ void look_at_kramers_kronig(const Causal& f, Findings& out) {
   out.push_back(std::move(finding));
 }
 
+/// Every second value, from the first or the second on.
+template <class List>
+List every_second(const List& all, std::size_t from) {
+  List out;
+  for (std::size_t w = from; w < all.size(); w += 2) out.push_back(all[w]);
+  return out;
+}
+
+/// By how much the A(∞) that A and B tell of one mode changes where every second frequency is left out, relative as its
+/// error: the odd or the even ones, whichever changes it more.
+double change_with_half_the_frequencies(const Causal& f, Index mode) {
+  double most = 0;
+  const Index body = mode / 6;
+  const auto A = of_body(f.p.c.A, body), B = of_body(f.p.c.B, body);
+  for (const std::size_t from : {0, 1}) {
+    const auto half = radiation::extrapolated({every_second(f.p.c.omega, from), every_second(B, from)},
+                                              every_second(A, from), std::nullopt);
+    most = std::max(most, std::abs(half.A_inf(mode % 6, mode % 6) - f.A_inf(mode)) / f.p.size_of_A(mode));
+  }
+  return most;
+}
+
+/// The resonance of a mode that departs most from what its neighbours tell; nothing if all fit.
+std::optional<Spike> largest_resonance(const Patient& p, Index mode) {
+  std::optional<Spike> out;
+  for (const Spike& s : find_spikes(p.c))
+    if (s.mode == mode && s.kind == SpikeKind::resonance && (!out || s.size > out->size)) out = s;
+  return out;
+}
+
+/// Between which neighbours A of a mode changes most.
+std::string steepest_place(const Patient& p, Index mode) {
+  std::size_t at = 0;
+  const auto change = [&](std::size_t w) { return std::abs(p.c.A[w + 1](mode, mode) - p.c.A[w](mode, mode)); };
+  for (std::size_t w = 0; w + 1 < p.c.omega.size(); ++w)
+    if (change(w) > change(at)) at = w;
+  return fmt::format("{:.4g} and {:.4g} rad/s", p.c.omega[at], p.c.omega[at + 1]);
+}
+
+/// What shows that a table is too coarse to tell A(∞) of a mode within `off`; empty if nothing does. (P45)
+std::string signs_of_spacing(const Causal& f, double off, Index mode) {
+  constexpr double as_much = 0.5;  // halved spacing leaves an eighth to a half of what the wider one misses
+  std::string out;
+  if (const double change = change_with_half_the_frequencies(f, mode); change >= as_much * off)
+    out = fmt::format("without every second frequency that one changes by {:.2g}", change);
+  if (const auto resonance = largest_resonance(f.p, mode); resonance && resonance->size >= as_much * off)
+    out += fmt::format("{}the resonance at {} departs by {:.2g} of the mode's size from what its neighbours tell",
+                       out.empty() ? "" : ", and ", frequency_text(f.p.c.omega[resonance->at]), resonance->size);
+  return out;
+}
+
+/// Why A(∞) and the table disagree, and what to do: it may be the table that is too coarse to tell A(∞).
+void explain_limit(const Causal& f, double off, Index mode, Finding& finding) {
+  const std::string spacing = signs_of_spacing(f, off, mode);
+  if (spacing.empty()) {
+    finding.why = "A(∞) is the mass of a blow: a run with another one has other natural periods (P62)";
+    finding.remedy = "compute A(∞) again, or leave it out: then it is told by A and B";
+    return;
+  }
+  finding.message += "; the table is too coarse to tell: " + spacing;
+  finding.why = "a resonance that falls between frequencies is missed in the memory of a run as it is here (P45)";
+  finding.remedy =
+      fmt::format("compute more frequencies about {}, between which A changes most", steepest_place(f.p, mode));
+}
+
 void look_at_limit(const Causal& f, Findings& out) {
   if (!f.p.c.A_inf) {
     out.push_back(not_looked_at("A(inf) by Ogilvie", "A(∞) is absent; runs take the one that A and B tell"));
@@ -147,8 +213,7 @@ void look_at_limit(const Causal& f, Findings& out) {
   constexpr double usual = 0.12, impossible = 0.35;  // tables that end early are off by 0.07
   if (worst.value > usual) {
     finding.severity = worst.value > impossible ? Severity::error : Severity::warning;
-    finding.why = "A(∞) is the mass of a blow: a run with another one has other natural periods (P62)";
-    finding.remedy = "compute A(∞) again, or leave it out: then it is told by A and B";
+    explain_limit(f, worst.value, worst.mode, finding);
   }
   out.push_back(std::move(finding));
 }

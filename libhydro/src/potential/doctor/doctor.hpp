@@ -59,6 +59,8 @@ void check_limits(const Patient& p, Findings& out);
 // doctor_spikes.cpp
 void check_repeated_frequencies(const Patient& p, Findings& out);
 void check_spikes(const Patient& p, Findings& out);
+/// Adds a finding of "spikes" for each load that departs from its neighbours by itself; none where all fit. (P43)
+void look_at_excitation_spikes(const Patient& p, Findings& out);
 // doctor_causality.cpp: Kramers-Kronig, A(inf) by Ogilvie and both tails share one fit
 void check_causality(const Patient& p, Findings& out);
 // doctor_haskind.cpp

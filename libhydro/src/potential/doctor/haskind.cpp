@@ -9,6 +9,7 @@
 
 #include "doctor.hpp"
 #include "hydro/waves/dispersion.hpp"
+#include "potential/modes.hpp"
 #include "potential/readers.hpp"
 
 namespace hydro::potential::doctor {
@@ -16,6 +17,7 @@ namespace {
 
 using Eigen::Index;
 
+using Complex = std::complex<double>;
 using std::numbers::pi;
 constexpr double same_angle = 1e-4;  // rad: degrees written with two decimals
 
@@ -81,6 +83,104 @@ bool is_symmetric_under(const MapOfModes& P, const Patient& p) {
   return unchanged(p.c.A, p.size_of_A) && unchanged(p.c.B, p.size_of_B);
 }
 
+/// How a load is off from the image of one, of the largest of its mode.
+struct OffImage {
+  double off = 0;
+  Index mode = 0;
+  std::size_t heading = 0, source = 0;
+};
+
+/// By how much X at one heading is, mode by mode, not the image of X at another, relative to the largest of all
+/// headings at that frequency: in the upper quartile over the frequencies, so that one number does not count. The phase
+/// that the place of the plane brings is common to all modes. (P44)
+OffImage off_image(const Patient& p, const MapOfModes& P, std::size_t h, std::size_t source) {
+  constexpr double dying = 0.1;  // of the mode's largest: below, short waves leave what a mesh makes of them
+  const auto modes = static_cast<std::size_t>(p.c.modes());
+  Eigen::VectorXd size = Eigen::VectorXd::Zero(p.c.modes());
+  for (const auto& X : p.c.X) size = size.cwiseMax(X.cwiseAbs().rowwise().maxCoeff());
+  size = with_floor(size);
+  std::vector<std::vector<double>> off(modes);
+  for (Index w = 0; w < static_cast<Index>(p.c.omega.size()); ++w) {
+    Eigen::VectorXd largest = dying * size;
+    for (const auto& X : p.c.X) largest = largest.cwiseMax(X.col(w).cwiseAbs());
+    largest = (largest.array() > 0).select(largest, 1);
+    const Eigen::VectorXcd image = P.cast<Complex>() * p.c.X[source].col(w), here = p.c.X[h].col(w);
+    const Complex common =
+        image.cwiseQuotient(largest.cast<Complex>()).dot(here.cwiseQuotient(largest.cast<Complex>()));
+    const Complex phase = std::abs(common) > 0 ? common / std::abs(common) : Complex(1);
+    // What a load of its own image lacks to be that is half of what parts the two.
+    const Eigen::VectorXd apart = (here - phase * image).cwiseAbs().cwiseQuotient((h == source ? 2.0 : 1.0) * largest);
+    for (std::size_t i = 0; i < modes; ++i) off[i].push_back(apart(static_cast<Index>(i)));
+  }
+  OffImage worst{0, 0, h, source};
+  for (std::size_t i = 0; i < modes; ++i)
+    if (const double here = quantile(off[i], 0.75); here > worst.off) worst = {here, static_cast<Index>(i), h, source};
+  return worst;
+}
+
+/// A plane in which A and B are symmetric: x = 0 or y = 0 of the array.
+struct Plane {
+  bool across_x;
+  MapOfModes map;
+
+  double image_of(double heading) const { return across_x ? pi - heading : -heading; }
+  const char* name() const { return across_x ? "fore and aft" : "port and starboard"; }
+};
+
+std::vector<Plane> planes_of_symmetry(const Patient& p) {
+  std::vector<Plane> out;
+  for (const bool across_x : {true, false})
+    if (auto map = mirror(p.c, across_x); map && is_symmetric_under(*map, p)) out.push_back({across_x, *map});
+  return out;
+}
+
+/// Of headings whose image in the plane is given too, or that are their own, the one that is farthest from it.
+OffImage farthest_from_image(const Patient& p, const Plane& plane) {
+  OffImage worst;
+  for (std::size_t h = 0; h < p.c.heading.size(); ++h)
+    for (std::size_t g = 0; g <= h; ++g)
+      if (std::abs(std::remainder(p.c.heading[h] - plane.image_of(p.c.heading[g]), 2 * pi)) < same_angle)
+        if (const OffImage here = off_image(p, plane.map, h, g); here.off > worst.off) worst = here;
+  return worst;
+}
+
+// Loads of good meshes keep within 0.02 of their images; what no mesh does is another mode's load.
+constexpr double usual_off_image = 0.1, impossible_off_image = 0.3;
+
+Finding image_finding(const Patient& p, const Plane& plane, const OffImage& worst) {
+  const auto degrees = [&](std::size_t h) { return Angle::from_radians(p.c.heading[h]).degrees(); };
+  return {.severity = worst.off > impossible_off_image ? Severity::error : Severity::warning,
+          .check = "Haskind relation",
+          .where = fmt::format("X of {}, heading {:.4g} deg", mode_label(worst.mode), degrees(worst.heading)),
+          .message = worst.heading == worst.source
+                         ? fmt::format("A and B are symmetric {}, which leaves this load nothing: it is off by {:.2g} "
+                                       "of the mode's largest (upper quartile over the frequencies)",
+                                       plane.name(), worst.off)
+                         : fmt::format("A and B are symmetric {}; this load is off by {:.2g} of the mode's largest "
+                                       "from the image of that of {:.4g} deg (upper quartile over the frequencies)",
+                                       plane.name(), worst.off, degrees(worst.source)),
+          .why =
+              "waves along the plane of a symmetric array push nothing across it, and mirrored waves make mirrored "
+              "loads (P44)",
+          .remedy =
+              "look at the order of modes and headings of X against that of A and B, and whether they are of one "
+              "body",
+          .body = static_cast<int>(worst.mode / 6) + 1};
+}
+
+/// Planes whose images the loads that are given are; a finding for each other one.
+std::vector<Plane> planes_of_loads(const Patient& p, Findings& out) {
+  std::vector<Plane> sound;
+  for (Plane& plane : planes_of_symmetry(p)) {
+    const OffImage worst = farthest_from_image(p, plane);
+    if (worst.off > usual_off_image)
+      out.push_back(image_finding(p, plane, worst));
+    else
+      sound.push_back(std::move(plane));
+  }
+  return sound;
+}
+
 /// Whether the only body is one of revolution about the vertical axis through its reference point: turned by an angle
 /// it has the same A and B, and turning about its axis moves no water, A₆₆ = 0. (P65)
 bool is_of_revolution(const Patient& p) {
@@ -113,11 +213,10 @@ std::vector<Heading> turned_about(const Patient& p) {
 }
 
 /// Headings of the data and their images, if they are evenly spread over the circle; else empty.
-std::vector<Heading> circle(const Patient& p) {
-  if (is_of_revolution(p)) return turned_about(p);
-  std::array<std::optional<MapOfModes>, 2> across{mirror(p.c, true), mirror(p.c, false)};
-  for (auto& m : across)
-    if (m && !is_symmetric_under(*m, p)) m.reset();
+std::vector<Heading> circle(const Patient& p, const std::vector<Plane>& planes) {
+  if (planes.size() == 2 && is_of_revolution(p)) return turned_about(p);
+  std::array<std::optional<MapOfModes>, 2> across;
+  for (const Plane& plane : planes) across[plane.across_x ? 0 : 1] = plane.map;
   std::vector<Heading> list;
   const auto add = [&](double angle, std::size_t source, const MapOfModes& by) {
     if (!holds(list, angle)) list.push_back({wrapped(angle), source, by});
@@ -304,7 +403,7 @@ void check_haskind(const Patient& p, Findings& out) {
     out.push_back(not_looked_at("Haskind relation", "there is no excitation"));
     return;
   }
-  if (const auto headings = circle(p); !headings.empty())
+  if (const auto headings = circle(p, planes_of_loads(p, out)); !headings.empty())
     if (const auto list = over_the_circle(p, headings); !list.empty()) {
       out.push_back(circle_finding(p, list, headings.size()));
       return;

@@ -2,8 +2,10 @@
 #include <Eigen/LU>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
+#include <numbers>
 
 #include "doctor.hpp"
 #include "potential/readers.hpp"
@@ -145,40 +147,107 @@ Eigen::Vector2cd expected_push(const Patient& p, int body, std::size_t w, double
   return sum;
 }
 
-void look_at_push(const Patient& p, int body, std::size_t h, Case& worst) {
-  const std::size_t w = 0;  // the longest wave
-  const Eigen::MatrixXcd& X = p.c.X[h];
-  const Index i = row_of(body);
+/// Loads of surge, sway and heave on one body in the longest wave of one heading.
+struct Pushed {
+  double heading;
+  Eigen::Vector3cd X;
+};
+
+struct PushMisfit {
+  double off;    ///< of what is expected
+  double ratio;  ///< of the given load to the expected, along it
+};
+
+PushMisfit push_misfit(const Patient& p, int body, const Pushed& given) {
+  const Complex lift = given.X(2), here = elevation_at(p, body, 0, given.heading);
   // Heave tells the phase of the wave at the body, wherever that is; a body without waterplane is taken at its place.
-  const Complex lift = X(i + 2, 0);
   const bool by_heave = floats(p, body) && std::abs(lift) > 0;
-  const Complex phase = by_heave ? std::polar(1.0, -std::arg(lift / expected_heave(p, body, w, p.c.heading[h]) *
-                                                             elevation_at(p, body, w, p.c.heading[h])))
-                                 : std::conj(elevation_at(p, body, w, p.c.heading[h]));
-  const Eigen::Vector2cd given = phase * X.block<2, 1>(i, 0);
-  const Eigen::Vector2cd expected = expected_push(p, body, w, p.c.heading[h]);
+  const Complex phase =
+      by_heave ? std::polar(1.0, -std::arg(lift / expected_heave(p, body, 0, given.heading) * here)) : std::conj(here);
+  const Eigen::Vector2cd push = phase * given.X.head<2>(), expected = expected_push(p, body, 0, given.heading);
   // An unknown volume may add any mass to what A and B make.
   const Eigen::Vector2cd per_mass = Complex(0, p.c.water.gravity * p.k.front()) *
-                                    Eigen::Vector2d(std::cos(p.c.heading[h]), std::sin(p.c.heading[h])).cast<Complex>();
+                                    Eigen::Vector2d(std::cos(given.heading), std::sin(given.heading)).cast<Complex>();
   double mass = 0;
-  if (!displaced_mass(p, body)) mass = std::max(0.0, per_mass.dot(given - expected).real() / per_mass.squaredNorm());
+  if (!displaced_mass(p, body)) mass = std::max(0.0, per_mass.dot(push - expected).real() / per_mass.squaredNorm());
   const Eigen::Vector2cd best = expected + mass * per_mass;
-  const double off = (given - best).norm() / best.norm();
-  const double ratio = expected.dot(given).real() / expected.squaredNorm();
-  Finding f{.severity = graded(off, 0.2, 0.5),
+  return {(push - best).norm() / best.norm(), expected.dot(push).real() / expected.squaredNorm()};
+}
+
+constexpr double usual_push = 0.2, impossible_push = 0.5;
+
+/// A mistake that files make, and loads without it.
+struct Mistake {
+  const char* name;
+  Pushed (*undone)(Pushed);
+};
+
+constexpr std::array<Mistake, 4> mistakes{{
+    {"the phases are of the other time factor",
+     [](Pushed x) {
+       return Pushed{x.heading, x.X.conjugate()};
+     }},
+    {"headings are where waves come from",
+     [](Pushed x) {
+       return Pushed{x.heading + std::numbers::pi, x.X};
+     }},
+    {"headings are counted the other way round",
+     [](Pushed x) {
+       return Pushed{-x.heading, x.X};
+     }},
+    {"surge and sway are exchanged",
+     [](Pushed x) {
+       return Pushed{x.heading, Eigen::Vector3cd(x.X(1), x.X(0), x.X(2))};
+     }},
+}};
+
+/// By how much the part of heave that leads the wave is off without a mistake, N/m, largest over the headings; nothing
+/// if surge and sway do not fit then either.
+std::optional<double> heave_without(const Patient& p, int body, const Mistake& mistake) {
+  double off = 0;
+  for (std::size_t h = 0; h < p.c.heading.size(); ++h) {
+    const Pushed x = mistake.undone({p.c.heading[h], p.c.X[h].block<3, 1>(row_of(body), 0)});
+    if (push_misfit(p, body, x).off > usual_push) return std::nullopt;
+    const Complex here = elevation_at(p, body, 0, x.heading);
+    off = std::max(off, std::abs(((x.X(2) - expected_heave(p, body, 0, x.heading)) / here).imag()));
+  }
+  return off;
+}
+
+/// The mistake without which surge and sway of all headings are right. The time factor and headings where waves come
+/// from make the same of them: heave leads the wave by damping, whose sign tells the two apart. (P68)
+std::string likely_mistake(const Patient& p, int body) {
+  std::vector<std::pair<double, std::string>> fitting;
+  for (const Mistake& mistake : mistakes)
+    if (const auto off = heave_without(p, body, mistake)) fitting.emplace_back(*off, mistake.name);
+  if (fitting.empty()) return {};
+  const double best = std::min_element(fitting.begin(), fitting.end())->first;
+  std::string out = "probably ";
+  constexpr double as_well = 2;  // the sign of damping makes one of them far worse than the other
+  for (const auto& [off, name] : fitting)
+    if (off <= as_well * best) out += (out.ends_with(' ') ? "" : ", or ") + name;
+  return out;
+}
+
+void look_at_push(const Patient& p, int body, std::size_t h, Case& worst) {
+  const auto [off, ratio] = push_misfit(p, body, {p.c.heading[h], p.c.X[h].block<3, 1>(row_of(body), 0)});
+  Finding f{.severity = graded(off, usual_push, impossible_push),
             .check = "surge and sway in long waves",
-            .where = place(p, body, w, h, "surge and sway"),
+            .where = place(p, body, 0, h, "surge and sway"),
             .message = fmt::format("X₁, X₂ differ by {:.2g} of {} the water's acceleration makes them{}", off,
                                    displaced_mass(p, body) ? "what ρV and A times" : "what A and some unknown ρV times",
                                    ratio < 0 ? ", and push against it" : ""),
             .body = body + 1,
-            .omega = p.c.omega[w]};
+            .omega = p.c.omega.front()};
   if (f.severity != Severity::note) {
-    if (off > 0.5 && ratio > 0) f.message += fmt::format(" (ratio {:.3g}{})", ratio, likely_cause(ratio, p.c.water));
+    if (off > impossible_push && ratio > 0)
+      f.message += fmt::format(" (ratio {:.3g}{})", ratio, likely_cause(ratio, p.c.water));
     f.why = "long waves push along their heading, a quarter period before the crest (P68)";
-    f.remedy = ratio < 0
-                   ? "the phases are probably of the other time factor, or headings are where waves come from"
-                   : "look at units of phases (degrees, radians), order of headings, units of A, volume and density";
+    f.remedy = likely_mistake(p, body);
+    if (f.remedy.empty())
+      f.remedy =
+          "look at units of phases (degrees, radians), time factor, order and sense of headings, order of modes, units "
+          "of A, volume and density";
   }
   keep_worst(worst, off, std::move(f));
 }

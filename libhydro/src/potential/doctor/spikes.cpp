@@ -193,9 +193,13 @@ void check_spikes(const Patient& p, Findings& out) {
   }
   const double lowest = lowest_irregular_frequency(p.c);
   const auto all = affairs(find_spikes(p.c), p.c.bodies());
+  const std::size_t before = out.size();
   for (const Affair& affair : all) out.push_back(spike_finding(p, affair, lowest));
-  if (all.empty())
-    out.push_back({.check = "spikes", .where = "A and B", .message = "all values fit between their neighbours"});
+  look_at_excitation_spikes(p, out);
+  if (out.size() == before)
+    out.push_back({.check = "spikes",
+                   .where = p.c.X.empty() ? "A and B" : "A, B and X",
+                   .message = "all values fit between their neighbours"});
 }
 
 }  // namespace doctor

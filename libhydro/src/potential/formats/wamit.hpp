@@ -104,8 +104,14 @@ struct WamitNeeds {
 WamitRun run_of(const ReadOptions& options, const std::optional<WamitOut>& out, const WamitNeeds& needs,
                 const std::filesystem::path& file, std::vector<std::string>& notes);
 
-/// A sentence if long waves push the bodies the wrong way: then the phases are of e^{−iωt} (P21).
-std::optional<std::string> sign_of_other_time_factor(const Coefficients& coefficients);
+/// What to refuse phases with, and what to do about them.
+struct WrongPhases {
+  std::string rule, remedy;
+};
+
+/// If long waves of every heading push the bodies the wrong way, and heave does not say that the time factor is right:
+/// then the phases are of e^{−iωt} (P21).
+std::optional<WrongPhases> sign_of_other_time_factor(const Coefficients& coefficients);
 
 /// A sentence if the coefficients would look clearly better with the order of frequencies turned round, which is what a
 /// wrong IPEROUT does: limits that join the wrong ends, or heave excitation that grows with frequency.

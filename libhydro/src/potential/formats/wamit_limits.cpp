@@ -82,22 +82,76 @@ std::optional<std::string> sign_of_wrong_iperout(const Coefficients& c) {
   return std::nullopt;
 }
 
-std::optional<std::string> sign_of_other_time_factor(const Coefficients& c) {
-  if (!c.C || c.X.empty()) return std::nullopt;
-  double C33 = 0, push = 0;
-  for (Eigen::Index i = 2; i < c.modes(); i += 6) C33 += (*c.C)(i, i);
-  for (std::size_t b = 0; b < c.heading.size(); ++b) {
-    std::complex<double> lift = 0, along = 0;
+namespace {
+
+/// Loads on all bodies together in the longest wave of one heading.
+struct LongestWave {
+  std::complex<double> lift;
+  Eigen::Vector2d push;  ///< imaginary part: of surge and sway
+  double along;          ///< that of the push in the direction of travel
+};
+
+std::vector<LongestWave> longest_waves(const Coefficients& c) {
+  std::vector<LongestWave> out;
+  for (std::size_t h = 0; h < c.heading.size(); ++h) {
+    LongestWave wave{0, Eigen::Vector2d::Zero(), 0};
     for (Eigen::Index body = 0; body < c.modes(); body += 6) {
-      lift += c.X[b](body + 2, 0);
-      along += c.X[b](body, 0) * std::cos(c.heading[b]) + c.X[b](body + 1, 0) * std::sin(c.heading[b]);
+      wave.lift += c.X[h](body + 2, 0);
+      wave.push += c.X[h].block<2, 1>(body, 0).imag();
     }
-    // Only waves so long that they lift the bodies with the water's level tell the sign.
-    if (!(C33 > 0) || std::abs(lift / C33 - 1.0) > 0.25) return std::nullopt;
-    push += along.imag();
+    wave.along = wave.push.dot(Eigen::Vector2d(std::cos(c.heading[h]), std::sin(c.heading[h])));
+    out.push_back(wave);
   }
-  if (push >= 0) return std::nullopt;
-  return "in the longest waves the bodies are pushed while the water accelerates the other way";
+  return out;
+}
+
+/// Σ of a matrix's entries between the heaves of all bodies.
+double sum_of_heave(const Eigen::MatrixXd& m) {
+  double sum = 0;
+  for (Eigen::Index i = 2; i < m.rows(); i += 6)
+    for (Eigen::Index j = 2; j < m.cols(); j += 6) sum += m(i, j);
+  return sum;
+}
+
+/// What the imaginary part of heave says of the time factor: ωB₃₃ for ours, its opposite for the other. Bodies away
+/// from the origin have a phase of the way as well, and then it says nothing.
+enum class TimeFactorOfHeave { ours, other, not_told };
+
+TimeFactorOfHeave time_factor_of_heave(const Coefficients& c, const std::vector<LongestWave>& waves) {
+  const double expected = c.omega.front() * sum_of_heave(c.B.front());
+  const auto all_are = [&](double sign) {
+    constexpr double near = 0.5;  // of it: long waves and meshes leave less, a wrong sign twice of it
+    return std::all_of(waves.begin(), waves.end(), [&](const LongestWave& wave) {
+      return std::abs(wave.lift.imag() - sign * expected) < near * expected;
+    });
+  };
+  return all_are(1) ? TimeFactorOfHeave::ours : all_are(-1) ? TimeFactorOfHeave::other : TimeFactorOfHeave::not_told;
+}
+
+}  // namespace
+
+std::optional<WrongPhases> sign_of_other_time_factor(const Coefficients& c) {
+  if (!c.C || c.X.empty()) return std::nullopt;
+  double C33 = 0;
+  for (Eigen::Index i = 2; i < c.modes(); i += 6) C33 += (*c.C)(i, i);
+  const std::vector<LongestWave> waves = longest_waves(c);
+  double largest = 0;
+  for (const LongestWave& wave : waves) largest = std::max(largest, wave.push.norm());
+  for (const LongestWave& wave : waves) {
+    // Only waves so long that they lift the bodies with the water's level tell the sign.
+    if (!(C33 > 0) || std::abs(wave.lift / C33 - 1.0) > 0.25) return std::nullopt;
+    // A time factor turns the push of every heading round; mirrored headings and exchanged modes do not.
+    constexpr double nothing = 0.01;  // of the largest: a file without sway has no push at 90 degrees
+    if (wave.push.norm() >= nothing * largest && wave.along >= -0.5 * wave.push.norm()) return std::nullopt;
+  }
+  if (!(largest > 0)) return std::nullopt;
+  const TimeFactorOfHeave heave = time_factor_of_heave(c, waves);
+  if (heave == TimeFactorOfHeave::ours) return std::nullopt;  // headings, perhaps: the doctor's affair
+  const std::string seen = "in the longest waves the bodies are pushed while the water accelerates the other way";
+  const std::string hams = "HAMS writes WAMIT's files for e^(−iωt): give its ControlFile.in instead of the .1 file";
+  if (heave == TimeFactorOfHeave::other) return WrongPhases{"the phases are of the other time factor: " + seen, hams};
+  return WrongPhases{"the phases are of the other time factor, or headings are where waves come from: " + seen,
+                     hams + "; or write headings as where waves go"};
 }
 
 }  // namespace hydro::potential

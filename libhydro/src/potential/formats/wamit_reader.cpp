@@ -277,8 +277,7 @@ Coefficients read_numeric_files(const WamitFiles& files, const WamitRun& run) {
     c.notes.push_back(fmt::format("no restoring matrix: there is no {}", restoring.filename().string()));
   }
   if (const auto doubt = sign_of_other_time_factor(c))
-    throw InputError("the phases are of the other time factor: " + *doubt, {.file = files.radiation.string()},
-                     "HAMS writes WAMIT's files for e^(−iωt): give its ControlFile.in instead of the .1 file");
+    throw InputError(doubt->rule, {.file = files.radiation.string()}, doubt->remedy);
   return c;
 }
 
