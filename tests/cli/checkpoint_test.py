@@ -167,7 +167,7 @@ class Checkpoints(unittest.TestCase):
 
     def kept_run(self):
         # Killed at its first checkpoint of very many: the test asks no speed of the machine.
-        scene = self.scene(SCENES["poles"].replace('duration = "100 s"', 'duration = "2000 s"'))
+        scene = self.scene(SCENES["poles"].replace('duration = "100 s"', 'duration = "1700 s"'))
         self.assertTrue(self.kill_once(scene, "r", 0))
         self.assertTrue(self.kept("r"))
         return scene
