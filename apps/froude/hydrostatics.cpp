@@ -162,9 +162,11 @@ void add_curve(const hh::RightingCurve& curve, bool free_trim, Report& report) {
       *std::max_element(curve.arms.begin(), curve.arms.end(), [](const auto& a, const auto& b) { return a.gz < b.gz; });
   report.say("  largest of these: {:.4g} m at {:.4g}°", fact("largest_gz/gz_m", most.gz),
              fact("largest_gz/heel_deg", most.heel / degree));
+  // An arm of rounding alone, as the one at rest, crosses nothing.
+  const double rounding = 1e-9 * std::abs(most.gz);
   for (std::size_t i = 1; i < curve.arms.size(); ++i) {
     const auto &p = curve.arms[i - 1], &q = curve.arms[i];
-    if (p.gz > 0 && q.gz <= 0)
+    if (p.gz > rounding && q.gz <= 0)
       report.row("vanishing_gz", "  vanishes at {:.4g}° (straight line between the points)",
                  fact("heel_deg", (p.heel + (q.heel - p.heel) * p.gz / (p.gz - q.gz)) / degree));
   }

@@ -22,6 +22,9 @@ using std::numbers::pi;
 // Knot, nautical mile, bar and the conventional standard gravity are exact by definition (BIPM, SI Brochure, 9th ed.,
 // table 8 and notes).
 constexpr double standard_gravity = 9.80665;
+// The pound is exact by the agreement of 1959 (NIST Special Publication 811, 2008, appendix B.8), and so are the pound
+// of force, the slug, the pound per square inch and the long ton of 2240 pounds that follow from it.
+constexpr double foot = 0.3048, inch = 0.0254, pound = 0.45359237, pound_force = pound * standard_gravity;
 constexpr Symbol symbols[] = {
     {"m", 1, dim::length, true},
     {"g", 1e-3, dim::mass, true},
@@ -47,8 +50,14 @@ constexpr Symbol symbols[] = {
     {"knot", 1852.0 / 3600, dim::velocity, false},
     {"knots", 1852.0 / 3600, dim::velocity, false},
     {"nmi", 1852, dim::length, false},
-    {"ft", 0.3048, dim::length, false},
-    {"in", 0.0254, dim::length, false},
+    {"ft", foot, dim::length, false},
+    {"in", inch, dim::length, false},
+    {"lb", pound, dim::mass, false},
+    {"slug", pound_force / foot, dim::mass, false},
+    {"LT", 2240 * pound, dim::mass, false},
+    {"lbf", pound_force, dim::force, false},
+    {"kip", 1e3 * pound_force, dim::force, false},
+    {"psi", pound_force / (inch * inch), dim::pressure, false},
     {"gn", standard_gravity, dim::acceleration, false},  // "g" is the gram
     {"kgf", standard_gravity, dim::force, false},
     {"tf", 1e3 * standard_gravity, dim::force, false},
@@ -89,7 +98,7 @@ Unit parse_factor(std::string_view text) {
     for (const Symbol& s : symbols) known.emplace_back(s.name);
     const std::string near = nearest(text, known);
     throw InputError(fmt::format("\"{}\" is not a unit: {}", text, why), {},
-                     near.empty() ? "known are SI units with prefixes, deg, Hz, rpm, t, bar, knot, min, h, ft, kgf"
+                     near.empty() ? "known are SI units with prefixes, deg, Hz, rpm, t, bar, knot, min, h, ft, lb, lbf, kgf"
                                   : fmt::format("did you mean \"{}\"?", near));
   };
   if (text.empty()) fail("a symbol is missing");

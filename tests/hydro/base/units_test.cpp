@@ -31,6 +31,18 @@ TEST(Units, ReadWhatPeopleWrite) {
   EXPECT_DOUBLE_EQ(parse_si("2 kN / m", dim::stiffness), 2000);
 }
 
+// Values of NIST Special Publication 811 (2008), appendix B.8, as many digits as it prints.
+TEST(Units, ReadPoundsOfMassAndOfForce) {
+  EXPECT_DOUBLE_EQ(parse_si("1 lb", dim::mass), 0.45359237);
+  EXPECT_DOUBLE_EQ(parse_si("1 LT", dim::mass), 1016.0469088);
+  EXPECT_NEAR(parse_si("1 slug", dim::mass), 14.59390, 5e-6);
+  EXPECT_NEAR(parse_si("1 lbf", dim::force), 4.448222, 5e-7);
+  EXPECT_NEAR(parse_si("1 kip", dim::force), 4448.222, 5e-4);
+  EXPECT_NEAR(parse_si("1 kip ft", dim::moment), 1355.818, 5e-4);
+  EXPECT_NEAR(parse_si("1 psi", dim::pressure), 6894.757, 5e-4);
+  EXPECT_NEAR(parse_si("64 lb/ft^3", dim::density), 64 * 16.01846, 64 * 5e-6);
+}
+
 TEST(Units, TakeHertzForACyclePerSecond) {
   EXPECT_DOUBLE_EQ(parse_si("0.5 Hz", dim::angular_velocity), pi);
   EXPECT_DOUBLE_EQ(parse_si("60 rpm", dim::angular_velocity), 2 * pi);
