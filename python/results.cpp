@@ -192,6 +192,15 @@ void add_modes(py::module_& m) {
           },
           "Undamped, s, shape (mode,).")
       .def_property_readonly(
+          "damped_period",
+          [](const Modes& modes) {
+            std::vector<double> out;
+            for (std::size_t i = 0; i < modes.count(); ++i)
+              out.push_back(modes.damped_period(i).value_or(std::numeric_limits<double>::quiet_NaN()));
+            return py::array_t<double>(static_cast<py::ssize_t>(out.size()), out.data());
+          },
+          "Of a decay, s, shape (mode,); NaN where the motion creeps back without swinging.")
+      .def_property_readonly(
           "damping_ratio",
           [](const Modes& modes) {
             std::vector<double> out;

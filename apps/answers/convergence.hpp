@@ -51,7 +51,8 @@ std::vector<double> at_least_a_thousandth(std::vector<double> sizes, const std::
 struct Sizes {
   double rms, deviation, extreme;
 };
-/// Of each signal. None is less than a thousandth of the largest rms of its unit, nor than rounding leaves: 1e-9 in the
+/// Of each signal. None is less than a thousandth of the largest rms of its unit, of energies of the kinetic one, nor
+/// than rounding leaves: 1e-9 in the
 /// SI unit, of what has N, J or W in it 1e-9 of `weight`, N, or 1e-9.
 std::vector<Sizes> sizes_of(const Run& run, double weight);
 
@@ -74,7 +75,8 @@ struct Convergence {
   bool converges() const { return ratio >= 1.5; }
 };
 /// (E1): Richardson's extrapolation by the ratio observed, which is taken as no more than `largest`, that of the
-/// method's order, and no less than √2. Without `coarsest` the ratio is taken to be 2. Statistics of two runs may agree
+/// method's order, and no less than √2; times a safety of 1.25, and as if no difference fell by more than the method's
+/// order. Without `coarsest` the ratio is taken to be 2. Statistics of two runs may agree
 /// by chance: theirs is the larger of the differences from run to run, as far as both errors fall alike.
 /// [Roache 1994, J. Fluids Eng. 116, 405, eq. 2 and 10]
 Convergence convergence(const Beside& fine, const Beside& coarse, const std::optional<Beside>& coarsest, double largest,

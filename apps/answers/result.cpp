@@ -215,6 +215,11 @@ void WaterSeries::write(const std::filesystem::path& path) const {
 
 double Modes::period(std::size_t mode) const { return 2 * std::numbers::pi / omega[mode]; }
 
+std::optional<double> Modes::damped_period(std::size_t mode) const {
+  if (std::isnan(s[mode].real())) return std::nullopt;
+  return 2 * std::numbers::pi / std::abs(s[mode].imag());
+}
+
 std::optional<double> Modes::damping_ratio(std::size_t mode) const {
   if (std::isnan(s[mode].real())) return std::nullopt;
   return -s[mode].real() / std::abs(s[mode]);

@@ -71,6 +71,8 @@ Prepared prepare(const Scene& scene, std::shared_ptr<Kept> kept) {
   add_connections(scene, out);
   out.elements = scene.elements;
   add_fastened_lines(scene, out);
+  if (scene.waves || scene.rao)
+    for (std::string& note : ends_without_pressure(scene)) out.notes.push_back(std::move(note));
   return out;
 }
 

@@ -108,7 +108,37 @@ double points_asked(const Scene& scene, const scene::Member& m) {
          needed_pieces(scene, m, immersion);
 }
 
+/// The areas of a body's wet ends at rest as waves press on them vertically, m²: upwards from below.
+double pressed_area(const Scene& scene, std::size_t body) {
+  double area = 0;
+  for (const scene::Member& m : scene.members) {
+    if (static_cast<std::size_t>(m.body) != body || !m.morison) continue;
+    const double along = (m.to - m.from).normalized().z() * std::numbers::pi / 4 * m.diameter * m.diameter;
+    const double z = scene.bodies[body].position.z();
+    if (z + m.from.z() < 0) area += along;
+    if (z + m.to.z() < 0) area -= along;
+  }
+  return area;
+}
+
 }  // namespace
+
+std::vector<std::string> ends_without_pressure(const scene::Scene& scene) {
+  std::vector<std::string> out;
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+    const scene::Body& body = scene.bodies[b];
+    if (!body.free[2] || !body.buoyancy || (body.hydrodynamics && body.hydrodynamics->excitation)) continue;
+    const double area = std::abs(pressed_area(scene, b));
+    constexpr double least = 1e-3;  // m^2; ends that press against each other leave rounding
+    if (area > least)
+      out.push_back(fmt::format(
+          "{}: waves do not press on the ends of its members, {:.3g} m^2 seen from below: in long waves {:.3g} N "
+          "per metre of amplitude are missing from its heave; give it coefficients with excitation, of a "
+          "mesh or a cylinder, if that matters",
+          body.name, area, scene.water.density * scene.water.gravity * area));
+  }
+  return out;
+}
 
 int needed_pieces(const Scene& scene, const scene::Member& member, dynamics::Immersion immersion) {
   const bool gauss = dynamics::points_per_piece(immersion) == 2;

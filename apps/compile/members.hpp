@@ -26,6 +26,10 @@ DragAtRest drag_of_responses(const scene::Scene& scene, const std::vector<dynami
 dynamics::frequency::MemberInertia inertia_of_responses(const scene::Scene& scene,
                                                         const std::vector<dynamics::RigidBody>& bodies);
 
+/// Of each body that floats upright on members with Morison's load and has no other excitation, as a spar: what waves
+/// would push on the wet ends of its members, which Morison's equation leaves out.
+std::vector<std::string> ends_without_pressure(const scene::Scene& scene);
+
 /// (D44): pieces of a member, so short that neither the shortest relevant wave nor turning about an end is missed by
 /// more than the accuracy asked.
 int needed_pieces(const scene::Scene& scene, const scene::Member& member, dynamics::Immersion immersion);

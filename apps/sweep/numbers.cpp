@@ -79,6 +79,7 @@ struct Mode {
 const std::vector<Statistic<Mode>>& of_modes() {
   static const std::vector<Statistic<Mode>> all{
       {"period", "s", [](const Mode& m) { return m.of.period(m.index); }},
+      {"damped_period", "s", [](const Mode& m) { return m.of.damped_period(m.index).value_or(none); }},
       {"damping_ratio", "", [](const Mode& m) { return m.of.damping_ratio(m.index).value_or(none); }}};
   return all;
 }

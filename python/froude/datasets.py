@@ -82,6 +82,7 @@ def of_modes(modes: _froude.Modes) -> "xarray.Dataset":
     data = {
         "omega": ("mode", modes.omega, _attributes("rad/s", "undamped frequency")),
         "period": ("mode", modes.period, _attributes("s", "undamped period")),
+        "damped_period": ("mode", modes.damped_period, _attributes("s", "period of a decay")),
         "damping_ratio": ("mode", modes.damping_ratio, _attributes("", "share of the critical damping")),
         "outside_data": ("mode", modes.outside_data, _attributes("", "frequency outside those of the coefficients")),
         "shape": (("mode", "motion"), modes.shape, _attributes("m or rad", "shape, of the centres of gravity"))}

@@ -33,6 +33,7 @@ def test_modes(examples, tmp_path):
     modes, said = froude.modes(examples / "modes.toml"), table(tmp_path / "m.csv")
     np.testing.assert_allclose(modes.period, said["period"], **SAME)
     np.testing.assert_allclose(modes.omega, said["omega"], **SAME)
+    np.testing.assert_allclose(modes.damped_period, said["damped period"], **SAME)
     np.testing.assert_allclose(modes.damping_ratio, said["damping ratio"], **SAME)
     for at, motion in enumerate(modes.motions):
         np.testing.assert_allclose(modes.shape[:, at], said[motion], **SAME)

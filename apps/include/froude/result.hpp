@@ -178,7 +178,8 @@ struct Modes {
 
   std::size_t count() const { return omega.size(); }
   double period(std::size_t mode) const;                        ///< s, undamped
-  std::optional<double> damping_ratio(std::size_t mode) const;  ///< empty where it creeps
+  std::optional<double> damped_period(std::size_t mode) const;  ///< s, 2π/Im s: of a decay; empty where it creeps
+  std::optional<double> damping_ratio(std::size_t mode) const;  ///< −Re s/|s|; empty where it creeps
   std::span<const double> shape_of(std::size_t mode) const;
   /// As write_modes(). \throws hydro::InputError if the file cannot be written
   void write(const std::filesystem::path& path) const;

@@ -50,6 +50,10 @@ TEST(Wind, DampsSmallMotionsAboutWhereTheBodyBalances) {
   const Modes modes = free_modes(scene::read(examples / "windy.toml"));
   ASSERT_EQ(modes.count(), 2u);
   const double critical = 2 * std::sqrt(1000.0 * 2000);
+  for (const std::size_t mode : {0u, 1u}) {  // one degree of freedom each
+    const double swings = std::sqrt(1 - *modes.damping_ratio(mode) * *modes.damping_ratio(mode));
+    EXPECT_NEAR(*modes.damped_period(mode) * swings, modes.period(mode), 1e-9 * modes.period(mode));
+  }
   std::vector<double> ratios{*modes.damping_ratio(0), *modes.damping_ratio(1)};
   std::sort(ratios.begin(), ratios.end());
   EXPECT_NEAR(ratios[0], resistance * speed / critical, 1e-6 * ratios[0]);

@@ -57,5 +57,21 @@ TEST(PanelExtrapolation, BetweenFrequenciesACubicIsExact) {
   EXPECT_EQ(cubic_weights({1.0}, 1.0), std::vector<double>{1});
 }
 
+// A resonance is refined by nodes that crowd about it; the cubic beside it must not be made of them alone.
+TEST(PanelExtrapolation, CubicsHaveTwoNodesOnEachSide) {
+  const std::vector<double> nodes{0, 0.5, 1, 1.05, 1.1, 1.15, 2, 2.5};
+  const auto used = [&](double x) {
+    std::vector<double> out;
+    const std::vector<double> weights = cubic_weights(nodes, x);
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      if (weights[i] != 0) out.push_back(nodes[i]);
+    return out;
+  };
+  EXPECT_EQ(used(0.9), (std::vector<double>{0, 0.5, 1, 1.05}));
+  EXPECT_EQ(used(1.3), (std::vector<double>{1.1, 1.15, 2, 2.5}));
+  EXPECT_EQ(used(0.1), (std::vector<double>{0, 0.5, 1, 1.05}));
+  EXPECT_EQ(used(2.4), (std::vector<double>{1.1, 1.15, 2, 2.5}));
+}
+
 }  // namespace
 }  // namespace hydro::panels::extrapolate_test
