@@ -294,6 +294,28 @@ TEST(FastenedLine, IsTheSameInTwo) {
   EXPECT_NEAR(heights[1], heights[0], 1e-7);  // Newton's 1e-9 of a step, over 100 of them
 }
 
+// A body within the length of its line, which hangs in a loop there, falls into it: mean tension over EA longer than 5
+// m.
+TEST(FastenedLine, HangsItsBodyThatBeganWithinItsLength) {
+  constexpr double stiffness = 1e5, mass = 50, length = 5 * (1 + (mass + 5) * gravity / stiffness);
+  for (const Vector3d& place : {Vector3d(0, 0, -4), Vector3d(1, 0, -3), Vector3d(0, 0, -4.99)}) {
+    const std::vector<RigidBody> bodies{bob(mass, place)};
+    const dynamics::Model model(bodies, {}, weight_and_line(bodies, {hung(springs(4, stiffness))}));
+    const dynamics::State rest = dynamics::equilibrium(model, dynamics::rest_state(bodies));
+    // 1e-9 of the weight is left over, on 100 N/m of the pendulum.
+    EXPECT_LT((rest.pose[0].centre - Vector3d(0, 0, -length)).norm(), 1e-7) << place.transpose();
+  }
+}
+
+// A loop whose ends are above one another turns about them without resistance: its stiffness is no rounding over
+// rounding, which was 1e13 times T/l and more.
+TEST(FastenedLine, HasNoStiffnessOfRoundingWhereALoopTurns) {
+  const Line line(springs(10, 1e5));
+  const auto rest = equilibrium(line, hanging_shape(line, ends_at(line, Vector3d(0, 0, -4))));
+  const Response pulls = pulls_at_rest(line, rest, {line.nodes() - 1});
+  EXPECT_LT(pulls.by_place.norm(), 1e9 * rest.tension.maxCoeff() / 0.5);  // the resistance is a 1e9th of it
+}
+
 /// A chain of 170 m from 3 m below the surface to an anchor 57 m deeper and 96 m to one side, 17 m longer than what
 /// hangs straight down and lies straight.
 FastenedLine slack_chain(int side) {
