@@ -142,8 +142,8 @@ class March {
                               scene_.run->checkpoint->place,
                               "leave `checkpoint` out; such a run goes on to its end or begins anew");
     };
-    if (!m_.lines.empty()) refuse("lines", "their steppers carry on more than places and velocities");
-    if (!m_.rules.empty()) refuse("controllers", "they keep a record of what they have watched");
+    if (!rulers_.connectors.can_be_kept() || !rulers_.joints.empty())
+      refuse("controllers", "nobody but the caller's program knows what they have seen");
     if (const char* why = integrator_->cannot_be_kept()) refuse(scene_.solve.integrator, why);
     for (std::size_t k = 0; k < workspace_->memory.size(); ++k)
       if (workspace_->needs_memory(k) && !workspace_->memory[k]->can_be_kept())
@@ -154,6 +154,8 @@ class March {
     for (std::size_t k = 0; k < workspace_->memory.size(); ++k)
       if (workspace_->needs_memory(k)) workspace_->memory[k]->keep_state(bytes);
     integrator_->keep_state(*workspace_, bytes);
+    for (auto& line : lines_) line->keep_state(bytes);
+    rulers_.connectors.keep_state(bytes);
     bytes.pass(n, workspace_->evaluations, ledger, record_.time);
     for (Signal& s : record_.signals) bytes.pass(s.values);
     bytes.pass(record_.steps, record_.parts, record_.newton_iterations, record_.halvings, record_.events, record_.leaps,
@@ -169,8 +171,10 @@ class March {
     constexpr double share = 0.05;
     hydro::StateBytes taken;
     keep_state(n, ledger, taken);
+    lines_.clear();
     workspace_.emplace(m_.model, m_.start);
     integrator_ = compile::make_integrator(scene_, m_.model);
+    begin_lines();
     hydro::StateBytes given(taken.bytes());
     keep_state(n, ledger, given);
     if (!kept_.in || (n < m_.steps && share * seconds_since(written_) < writing_s_)) return;
@@ -180,6 +184,7 @@ class March {
     written_ = Clock::now();
   }
   void go_on_from(const std::string& state, const std::function<void(double)>& done) {
+    begin_lines();
     dynamics::EnergyLedger ledger(m_.model, *workspace_);
     hydro::StateBytes bytes(state);
     std::size_t n = 0;

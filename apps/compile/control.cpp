@@ -46,25 +46,6 @@ void check(const std::string& pattern, const dynamics::SwitchedConnectors& group
   }
 }
 
-std::function<std::optional<double>(const Moment&)> ruled_by(const scene::StiffnessSwitch& rule,
-                                                             const std::shared_ptr<const SignalsByName>& signals) {
-  return [watched = named(*signals, rule.watch), controller = dynamics::DominantPeriodController(rule)](
-             const Moment& now) mutable { return controller.sample(now.workspace.state.time, watched.value(now)); };
-}
-
-std::function<std::optional<double>(const Moment&)> ruled_by(const Control& control,
-                                                             const std::shared_ptr<const SignalsByName>& signals) {
-  return [control, signals](const Moment& now) {
-    const auto stiffness = control.decide(SampleOfRun(*signals, now));
-    if (stiffness && !std::isfinite(*stiffness))
-      throw hydro::NumericsError(
-          fmt::format("the controller of \"{}\" asks for a stiffness of {} N/m at t = {:.6g} s; it must return a "
-                      "number, or nothing to leave the stiffness as it is",
-                      control.connectors, *stiffness, now.workspace.state.time));
-    return stiffness;
-  };
-}
-
 }  // namespace
 
 void set_controllers(const std::vector<Control>& controls, Prepared& p) {
@@ -82,6 +63,65 @@ void set_controllers(const std::vector<Control>& controls, Prepared& p) {
   p.switched = std::move(ruled);
 }
 
+/// What sets the stiffness of one group.
+class Controllers::Ruler {
+ public:
+  virtual ~Ruler() = default;
+  virtual std::optional<double> decide(const Moment& now) = 0;
+  virtual bool can_be_kept() const { return false; }
+  virtual void keep_state(hydro::StateBytes&) {}
+};
+
+namespace {
+
+class RuledByPeriod final : public Controllers::Ruler {
+ public:
+  RuledByPeriod(const scene::StiffnessSwitch& rule, const SignalsByName& signals)
+      : watched_(named(signals, rule.watch)), controller_(rule) {}
+  std::optional<double> decide(const Moment& now) override {
+    return controller_.sample(now.workspace.state.time, watched_.value(now));
+  }
+  bool can_be_kept() const override { return true; }
+  void keep_state(hydro::StateBytes& bytes) override { controller_.keep_state(bytes); }
+
+ private:
+  Signal watched_;
+  dynamics::DominantPeriodController controller_;
+};
+
+class RuledByCaller final : public Controllers::Ruler {
+ public:
+  RuledByCaller(const Control& control, std::shared_ptr<const SignalsByName> signals)
+      : control_(control), signals_(std::move(signals)) {}
+  std::optional<double> decide(const Moment& now) override {
+    const auto stiffness = control_.decide(SampleOfRun(*signals_, now));
+    if (stiffness && !std::isfinite(*stiffness))
+      throw hydro::NumericsError(
+          fmt::format("the controller of \"{}\" asks for a stiffness of {} N/m at t = {:.6g} s; it must return a "
+                      "number, or nothing to leave the stiffness as it is",
+                      control_.connectors, *stiffness, now.workspace.state.time));
+    return stiffness;
+  }
+
+ private:
+  Control control_;
+  std::shared_ptr<const SignalsByName> signals_;
+};
+
+std::unique_ptr<Controllers::Ruler> ruled_by(const scene::StiffnessSwitch& rule,
+                                             const std::shared_ptr<const SignalsByName>& signals) {
+  return std::make_unique<RuledByPeriod>(rule, *signals);
+}
+std::unique_ptr<Controllers::Ruler> ruled_by(const Control& control,
+                                             const std::shared_ptr<const SignalsByName>& signals) {
+  return std::make_unique<RuledByCaller>(control, signals);
+}
+
+}  // namespace
+
+Controllers::~Controllers() = default;
+Controllers::Controllers(Controllers&&) noexcept = default;
+
 Controllers::Controllers(const std::vector<Rule>& rules, const std::vector<Signal>& signals) {
   if (rules.empty()) return;
   const auto all = by_name(signals);
@@ -89,10 +129,18 @@ Controllers::Controllers(const std::vector<Rule>& rules, const std::vector<Signa
     rules_.push_back(std::visit([&](const auto& one) { return ruled_by(one, all); }, rule));
 }
 
+bool Controllers::can_be_kept() const {
+  return std::all_of(rules_.begin(), rules_.end(), [](const auto& rule) { return rule->can_be_kept(); });
+}
+
+void Controllers::keep_state(hydro::StateBytes& bytes) {
+  for (const auto& rule : rules_) rule->keep_state(bytes);
+}
+
 bool Controllers::decide(const Moment& now) {
   bool changed = false;
   for (std::size_t group = 0; group < rules_.size(); ++group)
-    if (const auto stiffness = rules_[group](now))
+    if (const auto stiffness = rules_[group]->decide(now))
       changed |= now.workspace.find_memory<dynamics::SwitchMemory>()->set(group, *stiffness, now.workspace.state);
   return changed;
 }

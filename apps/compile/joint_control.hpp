@@ -28,6 +28,7 @@ class JointControllers {
   /// Sets the forces where the run begins, or at the end of a step. \returns true if loads have jumped by it.
   /// \throws hydro::InputError if a signal is asked for that there is not, hydro::NumericsError at what is not finite
   bool decide(const Moment& now) const;
+  bool empty() const { return joints_.empty(); }
 
  private:
   std::vector<RuledJoint> joints_;

@@ -64,6 +64,18 @@ std::optional<dynamics::Exponent> LineRun::exponent() const {
   return perturbed_->growth().exponent(model_.lyapunov->from);
 }
 
+void LineRun::keep_state(hydro::StateBytes& bytes) {
+  if (driven_ == nullptr) {
+    bytes.pass(state_);
+    stepper_->keep_state(state_, bytes);
+  }
+  if (perturbed_) bytes.pass(*perturbed_);
+  for (auto& snaps : snaps_)
+    if (snaps) bytes.pass(*snaps);
+  bytes.pass(angles_, first_height_, turnover_);
+  looked_ = false;
+}
+
 void LineRun::look() {
   if (looked_) return;
   looked_ = true;

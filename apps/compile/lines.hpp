@@ -97,6 +97,9 @@ class LineRun {
   /// Brings tensions, forces and angles up to the state, if they are not there; before signals are read. Angles follow
   /// one another without jumps from one call to the next.
   void look();
+  /// All that the run of the line goes on from, into bytes or out of them; of one that moves with its bodies what is
+  /// counted beside its motion.
+  void keep_state(hydro::StateBytes& bytes);
 
   const dynamics::line::State& state() const { return driven_ != nullptr ? driven_->state() : state_; }
   const dynamics::line::Energies& energies() const {
@@ -109,6 +112,7 @@ class LineRun {
 
   struct Angles : dynamics::line::LinkAngles {
     double polar_rate, azimuth_rate;
+    void keep_state(hydro::StateBytes& bytes) { bytes.pass(polar, azimuth, polar_rate, azimuth_rate); }
   };
   const std::vector<Angles>& angles() const { return angles_; }
   const dynamics::line::Stepper::Balance& balance() const { return driven_ != nullptr ? driven_->balance() : balance_; }

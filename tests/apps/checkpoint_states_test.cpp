@@ -195,11 +195,65 @@ excitation = true
 turning = { from = "-90 deg", to = "0 deg", spacing = "45 deg", slower_than = "10 s" }
 )";
 
+/// A dropper that is let go, with what is counted of it; `more`: keys of its first table.
+std::string dropper(const std::string& more = "", const std::string& tables = "") {
+  return "[[line]]\nname = \"d\"\nfrom = \"(0, 0, 2) m\"\nto = \"(1.2, 0, 2) m\"\nlength = \"2 m\"\nsegments = "
+         "5\nmass_per_length = \"1 kg/m\"\nsnaps = { slack_below = \"0.5 N\", snap_above = \"8 N\" }\n" +
+         more + "[line.damping]\nquadratic = \"0.05 kg/m\"\n" + tables +
+         "[line.release]\nnode = 2\nat = \"(0.4, 0.2, 1.5) m\"\n";
+}
+const std::string elastic = "axial_stiffness = \"20 kN\"\n";
+/// A buoy drawn sideways by a chain, part of which slides about on the bed.
+const std::string moored = R"([[body]]
+name = "buoy"
+position = "(0, 0, -1) m"
+centre_of_gravity = "(0, 0, 0) m"
+mass = "200 kg"
+radii_of_gyration = "(0.5, 0.5, 0.5) m"
+free = ["surge", "sway", "heave"]
+initial_velocity = { surge = "-1 m/s", sway = "0.5 m/s" }
+[[mooring]]
+on = "buoy"
+kind = "linear"
+stiffness = { surge = "100 N/m", sway = "100 N/m", heave = "9000 N/m" }
+[[line]]
+name = "chain"
+from = "(0, 0, -1) m"
+on = { from = "buoy" }
+to = "(9, 0, -4) m"
+length = "10 m"
+segments = 8
+mass_per_length = "8 kg/m"
+diameter = "0.05 m"
+axial_stiffness = "200 kN"
+buoyancy = true
+bed = { stiffness = "200 kPa/m", damping = "10 kPa s/m", friction = 0.5 }
+morison = { cd = 1.1, ca = 1 }
+)";
+const std::string switched = R"([[connector]]
+name = "spring"
+between = ["disc", "ground"]
+ends = ["(0, 0, 2) m", "(0, 9, 2) m"]
+kind = "axial"
+stiffness = "900 N/m"
+rest_length = "as placed"
+[connector.switch]
+watch = "disc.sway"
+every = "0.5 s"
+window = "2 s"
+hysteresis = "0.2 Hz"
+settings = [{ from = "0 s", stiffness = "300 N/m" }, { from = "6 s", stiffness = "90 N/m" }]
+)";
+std::string lines_by(const std::string& scheme) { return fmt::format("integrator = {{ lines = \"{}\" }}\n", scheme); }
+
 std::string method(const std::string& name) { return fmt::format("integrator = {{ name = \"{}\" }}\n", name); }
 
 // Newton's first guesses begin anew at a checkpoint: what it leaves moves, 1e-9 of accelerations, and instants of
 // events with it. 1e-6 of each signal is far above that, and far below what any lost state does.
 constexpr double newton = 1e-6;
+
+// Of lines tensions are what Newton leaves of places times EA, and neighbours part on the way.
+constexpr double lines = 1e-4;
 
 const std::vector<Case> cases = {
     {"RoughContact", crate + "restitution = 0.2\nfriction = 0.5\n", 0.8, 0.01, {0.05, 0.15, 0.3, 0.7}, newton},
@@ -236,6 +290,13 @@ const std::vector<Case> cases = {
      {0.5, 1.3},
      newton,
      "integrator = { name = \"implicit_euler\", tolerance = 1e-3 }\n"},
+    {"Line", dropper("", "[line.lyapunov]\nfrom = \"1 s\"\n"), 3, 0.01, {0.5, 2}, lines},
+    {"LineByGeneralizedAlpha", dropper(elastic), 2, 0.01, {0.5, 1.5}, lines, lines_by("generalized_alpha")},
+    {"LineByRosenbrock", dropper(elastic), 2, 0.01, {0.5, 1.5}, lines, lines_by("rosenbrock")},
+    {"LineByGamma", dropper(), 2, 0.01, {0.5, 1.5}, lines, lines_by("gamma")},
+    {"LineBySemiImplicitEuler", dropper(), 1, 0.002, {0.3, 0.7}, lines, lines_by("semi_implicit_euler")},
+    {"LineOnABodyAndABedWithFriction", moored, 4, 0.01, {0.5, 1.5, 3}, lines},
+    {"SwitchByAPeriod", disc + switched, 8, 0.02, {1.2, 3.1, 5.2}, newton},
     {"FrictionByTheExplicitPair",
      disc + "friction = { dynamic = \"40 N m\", static = \"50 N m\" }\n",
      3,
@@ -260,6 +321,16 @@ TEST_P(StateInACheckpoint, IsThereAgainAfterIt) {
                      undisturbed);
     expect_near(undisturbed, without, c.allowed);
   }
+}
+
+// What a controller of the caller's has seen only the caller knows.
+TEST(ControllersOfTheCaller, AreRefusedWithCheckpoints) {
+  const std::string spring = switched.substr(0, switched.find("[connector.switch]"));
+  const Case c{"Ruled", disc + spring, 1, 0.02, {}, newton};
+  const Control leaves_it{.connectors = "spring", .decide = [](const Sample&) { return std::nullopt; }};
+  EXPECT_NO_THROW(simulate(scene_of(c, 0), {}, {leaves_it}));
+  EXPECT_THAT([&] { simulate(scene_of(c, 0.5), {}, {leaves_it}); },
+              testing::ThrowsMessage<hydro::InputError>(testing::HasSubstr("the state of controllers cannot be kept")));
 }
 
 INSTANTIATE_TEST_SUITE_P(All, StateInACheckpoint, testing::ValuesIn(cases),

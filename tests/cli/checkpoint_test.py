@@ -69,8 +69,35 @@ def module(memory="", initial=""):
     return BEGIN + MODULE.format(memory=memory, initial=initial)
 
 
+LINE = """[[line]]
+name = "d"
+from = "(0, 0, 0) m"
+to = "(1.2, 0, 0) m"
+length = "2 m"
+segments = 5
+mass_per_length = "1 kg/m"
+[line.release]
+node = 2
+at = "(0.4, 0.2, -0.5) m"
+"""
+SWITCH = """[[connector]]
+name = "spring"
+between = ["disc", "ground"]
+ends = ["(0, 0, 2) m", "(0, 9, 2) m"]
+kind = "axial"
+stiffness = "900 N/m"
+rest_length = "as placed"
+[connector.switch]
+watch = "disc.sway"
+every = "1 s"
+window = "4 s"
+hysteresis = "0.2 Hz"
+settings = [{ from = "0 s", stiffness = "300 N/m" }, { from = "6 s", stiffness = "90 N/m" }]
+"""
+
+
 # What holds state in each: the memory of radiated waves as it is chosen (poles), as convolutions, friction and a latch
-# that stick, and the methods of the steps.
+# that stick, nodes of a line, what a switch has seen, and the methods of the steps.
 SCENES = {
     "poles": module("memory_tolerance = 1e-2") + MOORING + asked(100, 0.2),
     "direct": module('method = "direct", memory = "20 s", accept_error = 0.2') + MOORING + asked(100, 0.2),
@@ -80,6 +107,8 @@ SCENES = {
     "latch": module("memory_tolerance = 1e-2", 'initial = { heave = "1 cm" }') + RACK
              + 'latch = { hold = "2 s" }\n' + asked(60, 0.1),
     "energy_momentum": OPEN_WATER + DISC + asked(30, 0.1, solve='integrator = { name = "energy_momentum" }\n'),
+    "line": OPEN_WATER + LINE + asked(30, 0.1),
+    "switch": OPEN_WATER + DISC + SWITCH + asked(30, 0.1),
     "explicit_pair": OPEN_WATER + DISC + asked(30, 0.1, solve='integrator = { name = "explicit_pair" }\n'),
 }
 
@@ -208,16 +237,8 @@ class Checkpoints(unittest.TestCase):
         self.assertFalse(file.parent.exists())
 
     def test_what_has_a_state_that_cannot_be_kept_is_refused_at_the_start(self):
-        line = ('[[line]]\nname = "d"\nfrom = "(0, 0, 0) m"\nto = "(1.2, 0, 0) m"\nlength = "2 m"\nsegments = 5\n'
-                'mass_per_length = "1 kg/m"\n')
         sundials = 'integrator = { name = "sundials_bdf" }\n'
-        switch = ('[[connector]]\nname = "spring"\nbetween = ["disc", "ground"]\nends = ["(0, 0, 2) m", "(0, 9, 2) m"]\n'
-                  'kind = "axial"\nstiffness = "900 N/m"\nrest_length = "as placed"\n[connector.switch]\n'
-                  'watch = "disc.sway"\nevery = "2 s"\nwindow = "4 s"\nhysteresis = "0.001 Hz"\n'
-                  'settings = [{ from = "0 s", stiffness = "900 N/m" }, { from = "1 s", stiffness = "90 N/m" }]\n')
-        for text, word in ((OPEN_WATER + line + asked(7, 0.1), "lines"),
-                           (OPEN_WATER + DISC + switch + asked(7, 0.1), "controllers"),
-                           (OPEN_WATER + DISC + asked(7, 0.1, solve=sundials), "sundials_bdf"),
+        for text, word in ((OPEN_WATER + DISC + asked(7, 0.1, solve=sundials), "sundials_bdf"),
                            (module() + MOORING + asked(7, 0.1, ', start = "steady"'), "steady")):
             with self.subTest(word):
                 done = self.run_froude(self.scene(text), "r")

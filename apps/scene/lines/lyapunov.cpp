@@ -23,8 +23,10 @@ LineProperty lyapunov_of_lines() {
   return {
       inner_table("lyapunov", line_lyapunov().table()).optional(), [](const Record& own, const Record&, Line& line) {
         if (line.fastened())
-          throw own.refused("asks for neighbours of a line that is on a body, whose own neighbours are not followed",
-                            "hold the line by the ground");
+          throw own.refused(
+              "asks for neighbours of a line that is on a body: both are stepped by generalised-alpha as one system, "
+              "which goes on from accelerations too, so that near places and velocities make no neighbour of it",
+              "hold the line by the ground, or give its end the path of the body ([line.prescribed])");
         line.lyapunov = line_lyapunov().read(own);
       }};
 }

@@ -263,6 +263,8 @@ std::vector<Mode> modes_of(const FreeMotions& system, const std::vector<double>&
 }
 
 constexpr double no_stiffness = 1e-9;  ///< of that of the stiffest motion
+/// Scaled by masses, 1/s²: of the slowest motion. Less is rounding, where nothing is stiff, as between slack lines.
+constexpr double no_stiffness_at_all = slowest_of_all * slowest_of_all;
 
 /// True unless some motion has less stiffness than none: the pivots of the factors have the signs of the eigenvalues.
 /// Of a thousand bodies that only connectors join, factors are sparse.
@@ -273,7 +275,8 @@ bool holds(const SmallMotions& about) {
   Eigen::SparseMatrix<double> K = (scale.asDiagonal() * whole * scale.asDiagonal()).sparseView();
   Eigen::SparseMatrix<double> none(K.rows(), K.cols());
   none.setIdentity();
-  K += no_stiffness * whole.diagonal().cwiseAbs().cwiseProduct(scale.cwiseAbs2()).maxCoeff() * none;
+  const double stiffest = whole.diagonal().cwiseAbs().cwiseProduct(scale.cwiseAbs2()).maxCoeff();
+  K += std::max(no_stiffness * stiffest, no_stiffness_at_all) * none;
   const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors(K);
   return factors.info() == Eigen::Success && factors.vectorD().minCoeff() > 0;
 }
@@ -281,7 +284,7 @@ bool holds(const SmallMotions& about) {
 /// Motions with no stiffness, or less than none.
 void add_unrestored(const FreeMotions& system, ModeList& out) {
   const auto K = hydro::dense::symmetric_eigen(dynamic_stiffness(system, 0));
-  const double none = no_stiffness * K.values.cwiseAbs().maxCoeff();
+  const double none = std::max(no_stiffness * K.values.cwiseAbs().maxCoeff(), no_stiffness_at_all);
   for (Eigen::Index k = 0; k < system.count() && K.values[k] <= none; ++k)
     (K.values[k] < -none ? out.toppling : out.adrift)
         .push_back(system.shape(Eigen::VectorXd(system.unscaled(K.vectors.col(k)))));

@@ -254,6 +254,18 @@ void DrivenLine::accept(double t_s, const std::vector<End>& ends) {
   w.stay();
 }
 
+void DrivenLine::keep_state(hydro::StateBytes& bytes) {
+  Work& w = *work_;
+  bytes.pass(w.state);
+  for (Path::Place& end : w.now) bytes.pass(end.position, end.velocity, end.acceleration);
+  for (Vector3d& one : w.algorithmic) bytes.pass(one);
+  w.stepper.keep_state(w.state, bytes);
+  if (!bytes.gives_back()) return;
+  w.tried.t = std::numeric_limits<double>::quiet_NaN();
+  w.balanced = false;
+  w.stay();
+}
+
 const Line& DrivenLine::line() const { return work_->line; }
 const State& DrivenLine::state() const { return work_->state; }
 const Energies& DrivenLine::energies() const { return work_->stepper.energies(); }

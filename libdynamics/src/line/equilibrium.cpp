@@ -173,19 +173,6 @@ Stage resting(const State& at) {
           .rounding = 1e-12};
 }
 
-}  // namespace
-
-Response pulls_at_rest(const Line& line, const State& rest, const std::vector<int>& prescribed) {
-  Equations equations(line);
-  Stage stage = resting(rest);
-  Places u = Places::Zero(3, line.nodes());
-  VectorXd T = rest.tension;
-  equations.solve(stage, rest, 1e-10, 30, u, T);  // sets the scale; what is left over is rounding
-  return equations.response(stage, rest, Places::Zero(3, line.nodes()), rest.tension, prescribed, 0);
-}
-
-namespace {
-
 /// Largest force that acts on a node or in a segment, over the shortest length, N/m: of what resists a step first.
 double hardest_of(const Line& line, const State& guess) {
   double hardest = 0, shortest = std::numeric_limits<double>::infinity();
@@ -195,6 +182,23 @@ double hardest_of(const Line& line, const State& guess) {
   hardest = std::max(hardest, line.hardest_bending());
   return hardest > 0 ? hardest : 1;
 }
+
+}  // namespace
+
+Response pulls_at_rest(const Line& line, const State& rest, const std::vector<int>& prescribed) {
+  // What turns or slides without any resistance, as a loop does whose ends are above one another, does not change the
+  // pulls; this much of one keeps its rounding out of them.
+  constexpr double resistance = 1e-9;
+  Equations equations(line);
+  Stage stage = resting(rest);
+  stage.relax = resistance * hardest_of(line, rest);
+  Places u = Places::Zero(3, line.nodes());
+  VectorXd T = rest.tension;
+  equations.solve(stage, rest, 1e-10, 30, u, T);  // sets the scale; what is left over is rounding
+  return equations.response(stage, rest, Places::Zero(3, line.nodes()), rest.tension, prescribed, 0);
+}
+
+namespace {
 
 /// Moves free nodes by up to `size` along and up, always the same ways: what stands on its head does not fall by
 /// itself. `across`: out of the plane y = 0 too.

@@ -41,6 +41,9 @@ struct LoadPowers {
 
   /// Of a point of a segment.
   void add(const PerLength& c, const WaterPoint& point, bool lifted);
+  void keep_state(hydro::StateBytes& bytes) {
+    bytes.pass(damping, drag_supplied, drag_dissipated, inertia_supplied, buoyancy_supplied, load_supplied);
+  }
 };
 
 /// Powers of all that acts, W; means over a step where the step has them.
@@ -48,6 +51,10 @@ struct Powers : LoadPowers {
   double axial = 0, bed = 0;  ///< dissipated
   double friction = 0;        ///< taken by the bed's shear, lost or stored
   double held = 0;            ///< supplied by what holds nodes
+  void keep_state(hydro::StateBytes& bytes) {
+    LoadPowers::keep_state(bytes);
+    bytes.pass(axial, bed, friction, held);
+  }
 };
 
 /// The water at a node: height of its surface above, m, velocity, and acceleration of the water itself.

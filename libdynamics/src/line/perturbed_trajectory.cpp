@@ -99,6 +99,11 @@ PerturbedTrajectory::~PerturbedTrajectory() = default;
 
 const Growth& PerturbedTrajectory::growth() const { return *work_->growth; }
 
+void PerturbedTrajectory::keep_state(hydro::StateBytes& bytes) {
+  bytes.pass(work_->state, *work_->growth);
+  work_->stepper.keep_state(work_->state, bytes);
+}
+
 void PerturbedTrajectory::follow(const State& state, const StepReport& took, double h) {
   Work& w = *work_;
   const StepReport own = w.stepper.step(w.state, h);

@@ -10,7 +10,7 @@ TensionStatistics::TensionStatistics(int segments, double slack_below, double sn
     : slack_below_(slack_below),
       snap_above_(snap_above),
       slack_(Eigen::VectorXd::Zero(segments)),
-      armed_(static_cast<std::size_t>(segments), false),
+      armed_(static_cast<std::size_t>(segments), 0),
       snaps_(static_cast<std::size_t>(segments), 0) {
   hydro::require(
       slack_below >= 0 && slack_below < snap_above,

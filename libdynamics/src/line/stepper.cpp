@@ -1,7 +1,6 @@
 #include "dynamics/line/stepper.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -25,20 +24,7 @@ bool as_long(double one, double other) {
   return std::abs(one - other) <= rounding * other;
 }
 
-constexpr std::array<std::string_view, 6> scheme_names{"energy_momentum", "generalized_alpha",   "rosenbrock",
-                                                       "gamma",           "semi_implicit_euler", "explicit_euler"};
-
 }  // namespace
-
-Scheme parse_scheme(std::string_view name) {
-  for (std::size_t i = 0; i < scheme_names.size(); ++i)
-    if (scheme_names[i] == name) return static_cast<Scheme>(i);
-  const std::string near = hydro::nearest(name, scheme_names);
-  throw hydro::InputError(fmt::format("there is no scheme \"{}\" for lines", name), {},
-                          near.empty() ? "" : fmt::format("did you mean \"{}\"?", near));
-}
-
-std::string_view name_of(Scheme scheme) { return scheme_names[static_cast<std::size_t>(scheme)]; }
 
 struct Stepper::Work {
   const Line& line;
@@ -59,6 +45,7 @@ struct Stepper::Work {
     double h = 0;
     Places algorithmic = {};
     VectorXd tension = {};
+    void keep_state(hydro::StateBytes& bytes) { bytes.pass(h, algorithmic, tension); }
   } previous;
   // The state that was booked last, and whether what it holds is not in the energies yet: most steps nobody asks for
   // it.
@@ -67,6 +54,7 @@ struct Stepper::Work {
   struct Earlier {
     Powers powers = {};
     double h = 0;
+    void keep_state(hydro::StateBytes& bytes) { bytes.pass(powers, h); }
   };                    // where the last sub-step began, and how long it was; 0: there was none
   double unbooked = 0;  // s: the last step, or its last part, whose powers are not in the energies yet; 0: they are
   struct {
@@ -168,6 +156,19 @@ void Stepper::keep(State& state) {
   w.kept.sub_step = w.sub_step;
   w.kept.earlier = w.earlier;
   w.kept.within = w.equations.within();
+}
+
+void Stepper::keep_state(State& state, hydro::StateBytes& bytes) {
+  Work& w = *work_;
+  energies();  // which are brought up to the state
+  double within = w.equations.within();
+  bytes.pass(w.a, w.algorithmic, w.energies, w.before, w.previous, w.sub_step, w.earlier, within);
+  if (!bytes.gives_back()) return;
+  w.unbooked = 0;
+  w.unnoted = false;
+  w.stay_in_piece_of(within);
+  if (w.rosenbrock) w.rosenbrock->begin(state, w.a);
+  keep(state);
 }
 
 StepReport Stepper::try_step(State& state, double h) {

@@ -2,6 +2,7 @@
 /// \file  What the water does to a point of a segment, by Morison's equation. (D74)
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -28,15 +29,29 @@ inline std::array<double, 2> wet_interval(double g0, double g1) {
   return g0 < 0 ? std::array{at, 1.0} : std::array{0.0, at};
 }
 
-/// A stretch of a segment whose section is wet by the same share, or by one that is straight along it.
-struct Stretch {
-  double from = 0, to = 0;            // shares of the length
-  double share = 1, share_along = 0;  // of the section that is wet where s = 0, and by s
-  double by_depth = 0;                // of that share, 1/m
+/// The share of a circular section that is wet where its axis is d radii below the surface, and its derivative. (D158)
+struct WetShare {
+  double share, by_d;
+
+  explicit WetShare(double d) {
+    const double within = std::clamp(d, -1.0, 1.0), chord = std::sqrt(1 - within * within);
+    share = 0.5 + (within * chord + std::asin(within)) / std::numbers::pi;
+    by_d = 2 * chord / std::numbers::pi;
+  }
 };
 
-/// What of segment j is wet: where the surface cuts it, the share ½ + depth/D of the section; and what is under water
-/// whole. A line that floats level has a lift that way, not all or nothing. (D158)
+/// A stretch of a segment that is wet whole, or whose section the surface cuts.
+struct Stretch {
+  double from = 0, to = 0;            // shares of the length
+  double depth = 1, depth_along = 0;  // of its axis in radii where s = 0, and by s
+  double radius = 0;                  // m; 0: wet whole
+
+  bool is_cut() const { return radius > 0; }
+  double depth_at(double s) const { return depth + depth_along * s; }
+};
+
+/// What of segment j is wet: where the surface cuts its section, that stretch; and what is under water whole. A line
+/// that floats level has a lift that way, not all or nothing. (D158)
 inline std::array<Stretch, 2> wet_stretches(const Line& line, int j, const Motion& now,
                                             const std::vector<Flow>& water) {
   if (line.description().water.wet != Wet::below_surface) return {Stretch{.from = 0, .to = 1}, Stretch{}};
@@ -46,16 +61,28 @@ inline std::array<Stretch, 2> wet_stretches(const Line& line, int j, const Motio
                radius = line.segment(j).diameter / 2;
   const auto whole = wet_interval(g0 - radius, g1 - radius), any = wet_interval(g0 + radius, g1 + radius);
   const Stretch under{.from = whole[0], .to = whole[1]};
-  Stretch cut{.share = 0.5 + g0 / (2 * radius), .share_along = (g1 - g0) / (2 * radius), .by_depth = 0.5 / radius};
+  if (!(radius > 0)) return {under, Stretch{}};
   const bool none = whole[0] == whole[1];
-  cut.from = none || g0 < g1 ? any[0] : whole[1];
-  cut.to = none || g0 >= g1 ? any[1] : whole[0];
-  if (!(radius > 0)) cut.to = cut.from;
-  return {under, cut};
+  return {under, Stretch{.from = none || g0 < g1 ? any[0] : whole[1],
+                         .to = none || g0 >= g1 ? any[1] : whole[0],
+                         .depth = g0 / radius,
+                         .depth_along = (g1 - g0) / radius,
+                         .radius = radius}};
 }
 
-/// Both Gauss points of a stretch of segment j, along `axis`: exact for the added mass of a rod and for what lifts, of
-/// third order in the drag.
+/// The wet shares of a cut section at two points of a stretch, their derivatives brought to where they have the change
+/// of the share from its one end to the other between them: a root at both ends of the cut is beyond Gauss.
+inline std::array<WetShare, 2> wet_shares(const Stretch& wet, const std::array<double, 2>& s) {
+  std::array<WetShare, 2> out{WetShare(wet.depth_at(s[0])), WetShare(wet.depth_at(s[1]))};
+  const double begins = wet.depth_at(wet.from), ends = wet.depth_at(wet.to), mean = (out[0].by_d + out[1].by_d) / 2;
+  if (std::abs(ends - begins) < 1e-3 || !(mean > 0)) return out;  // so short of a cut that Gauss is exact
+  const double between = (WetShare(ends).share - WetShare(begins).share) / (ends - begins);
+  for (WetShare& w : out) w.by_d *= between / mean;
+  return out;
+}
+
+/// Both Gauss points of a stretch of segment j, along `axis`: exact for the added mass of a rod and for what lifts
+/// where it is wet whole, of third order in the drag.
 FROUDE_INLINE std::array<WaterPoint, 2> points(const Line& line, int j, const Stretch& wet, const Triple& axis,
                                                const PerLength& c, const Motion& now, const std::vector<Flow>& water) {
   const int first = line.first(j), second = first + 1;
@@ -66,18 +93,18 @@ FROUDE_INLINE std::array<WaterPoint, 2> points(const Line& line, int j, const St
   const double moved = c.displaced + c.added;
   const Triple y0 = moved * Triple::of(k0.acceleration) - c.added * column(now.a, first),
                y1 = moved * Triple::of(k1.acceleration) - c.added * column(now.a, second);
+  const std::array<double, 2> at{middle - half / std::numbers::sqrt3, middle + half / std::numbers::sqrt3};
+  double share[2] = {1, 1}, by_depth[2] = {0, 0};
+  if (wet.is_cut()) {
+    const auto cut = wet_shares(wet, at);
+    for (std::size_t g = 0; g < 2; ++g) share[g] = cut[g].share, by_depth[g] = cut[g].by_d / wet.radius;
+  }
   std::array<WaterPoint, 2> out;
   for (std::size_t g = 0; g < 2; ++g) {
-    const double s = middle + (g == 0 ? -half : half) / std::numbers::sqrt3, r = 1 - s;
+    const double s = at[g], r = 1 - s;
     const Triple u = r * u0 + s * u1;
     const double length = half * line.segment(j).length;
-    out[g] = {s,
-              (wet.share + wet.share_along * s) * length,
-              wet.by_depth * length,
-              axis,
-              u,
-              u - (r * w0 + s * w1),
-              r * y0 + s * y1};
+    out[g] = {s, share[g] * length, by_depth[g] * length, axis, u, u - (r * w0 + s * w1), r * y0 + s * y1};
   }
   return out;
 }

@@ -2,6 +2,8 @@
 
 #include <Eigen/QR>
 
+#include <optional>
+
 #include "dynamics/model/assemble.hpp"
 #include "hydro/base/error.hpp"
 
@@ -41,6 +43,10 @@ class Balance {
   }
   /// The way that bodies begin to go by themselves; its length means nothing.
   Eigen::VectorXd along_load(const State& state) const { return root_.cwiseInverse().cwiseProduct(unbalanced(state)); }
+  /// What loads that are left over, scaled, do over a move.
+  double work(const Eigen::VectorXd& left, const Eigen::VectorXd& move) const {
+    return left.dot(root_.cwiseProduct(move));
+  }
   double weight() const {  // scaled as the loads
     return 9.81 * root_.norm();
   }
@@ -79,31 +85,87 @@ State displaced(const Model& model, const State& from, const Eigen::VectorXd& mo
       {}, "name what holds it (hydrostatics, buoyancy, a mooring), or place the bodies nearer to where they balance");
 }
 
-State at_rest(const Model& model, Linear linear, State start) {
-  constexpr int most = 200;
-  const Balance balance(model, linear);
-  start.velocity.setZero();
-  State now = displaced(model, start, Eigen::VectorXd::Zero(model.modes()));
-  double size = balance.unbalanced(now).norm();
-  // Takes as much of a move as leaves less unbalanced; false if no part of it does.
-  const auto goes = [&](const Eigen::VectorXd& move) {
+/// The search for rest from one state on.
+class Search {
+ public:
+  Search(const Model& model, const Balance& balance, const State& start)
+      : model_(model),
+        balance_(balance),
+        now_(displaced(model, start, Eigen::VectorXd::Zero(model.modes()))),
+        left_(balance.unbalanced(now_)) {}
+
+  const State& now() const { return now_; }
+  bool at_rest() const { return left_.norm() <= 1e-9 * balance_.weight(); }
+
+  /// Takes as much of a move as leaves less unbalanced; false if no part of it does.
+  bool leaves_less(const Eigen::VectorXd& move) {
     if (!move.allFinite() || move.norm() == 0) return false;
+    bool flat = false;  // what twice this move leaves does not differ from what there is
     for (double share = allowed(move); share > 1e-6; share /= 2) {
-      const State trial = displaced(model, now, share * move);
-      const double there = balance.unbalanced(trial).norm();
-      if (!(there < (1 - 1e-4 * share) * size)) continue;
-      now = trial;
-      size = there;
-      return true;
+      const auto there = moved_by(share * move);
+      if (!there) continue;
+      if (there->left.norm() < (1 - 1e-4 * share) * left_.norm()) return take(*there);
+      const bool same = (there->left - left_).norm() <= 1e-9 * left_.norm();
+      if (flat && same) return false;
+      flat = same;
     }
     return false;
-  };
-  for (int i = 0; i < most; ++i) {
-    if (size <= 1e-9 * balance.weight()) return now;
-    // Where Newton leads nowhere, as for a pendulum held out level, the bodies follow their loads for a while.
-    if (!goes(balance.correction(now)) && !goes(longest(balance.along_load(now)))) give_up(model, balance, now);
   }
-  give_up(model, balance, now);
+  /// Takes as much of a move as the loads still drive at its end, so that it goes down in energy: across what is as
+  /// flat as the way of a body between two slack lines, and over what leaves more unbalanced before it leaves less.
+  bool goes_down(const Eigen::VectorXd& move) {
+    if (!move.allFinite() || move.norm() == 0) return false;
+    for (double share = 1; share > 1e-3; share /= 2) {
+      const auto there = moved_by(share * move);
+      if (there && balance_.work(there->left, move) > 0) return take(*there);
+    }
+    return false;
+  }
+
+ private:
+  struct Trial {
+    State state;
+    Eigen::VectorXd left;
+  };
+  /// Nothing where the loads cannot be told: where a line does not reach.
+  std::optional<Trial> moved_by(const Eigen::VectorXd& move) const {
+    try {
+      State state = displaced(model_, now_, move);
+      Eigen::VectorXd left = balance_.unbalanced(state);
+      if (left.allFinite()) return Trial{std::move(state), std::move(left)};
+    } catch (const hydro::InputError&) {
+    } catch (const hydro::NumericsError&) {
+    }
+    return std::nullopt;
+  }
+  bool take(const Trial& trial) {
+    now_ = trial.state;
+    left_ = trial.left;
+    return true;
+  }
+
+  const Model& model_;
+  const Balance& balance_;
+  State now_;
+  Eigen::VectorXd left_;  // unbalanced, scaled
+};
+
+// (D21)
+State at_rest(const Model& model, Linear linear, State start) {
+  constexpr int most = 200, most_downhill = 50;  // of 10 m at most: no slack of a mooring is longer than 500 m
+  const Balance balance(model, linear);
+  start.velocity.setZero();
+  Search search(model, balance, start);
+  int downhill = 0;
+  for (int i = 0; i < most; ++i) {
+    if (search.at_rest()) return search.now();
+    if (search.leaves_less(balance.correction(search.now()))) continue;
+    // Where Newton leads nowhere, as for a pendulum held out level, the bodies follow their loads for a while.
+    const Eigen::VectorXd along = longest(balance.along_load(search.now()));
+    if (search.leaves_less(along)) continue;
+    if (++downhill > most_downhill || !search.goes_down(along)) break;
+  }
+  give_up(model, balance, search.now());
 }
 
 }  // namespace

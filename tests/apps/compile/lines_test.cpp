@@ -195,6 +195,12 @@ TEST(Lines, SayWhatCannotBe) {
   refuses("schema = 1\n[water]\ndensity = \"1000 kg/m^3\"\ndepth = \"infinite\"\n" + loop +
               "diameter = \"50 mm\"\n[line.bed]\nstiffness = \"1 MPa/m\"\n" + ask,
           "infinitely deep");
+  const std::string body =
+      "[[body]]\nname = \"b\"\nmass = \"10 kg\"\ncentre_of_gravity = \"(0, 0, 0) m\"\n"
+      "radii_of_gyration = \"(1, 1, 1) m\"\n";
+  refuses(water + body + loop +
+              "axial_stiffness = \"1 kN\"\non = { from = \"b\" }\n[line.lyapunov]\nfrom = \"0.5 s\"\n" + ask,
+          "which goes on from accelerations too");
 }
 
 TEST(Lines, SagWhereTheSceneSaysSo) {

@@ -5,8 +5,10 @@
 
 #include <cmath>
 
+#include "dynamics/force/constant_load.hpp"
 #include "dynamics/force/fastened_line.hpp"
 #include "dynamics/force/gravity.hpp"
+#include "dynamics/frequency/modes.hpp"
 #include "dynamics/integrate/generalized_alpha.hpp"
 #include "dynamics/integrate/ledger.hpp"
 #include "dynamics/integrate/start_with_lines.hpp"
@@ -290,6 +292,72 @@ TEST(FastenedLine, IsTheSameInTwo) {
   }
   EXPECT_LT(heights[0], -3) << "it swings";
   EXPECT_NEAR(heights[1], heights[0], 1e-7);  // Newton's 1e-9 of a step, over 100 of them
+}
+
+// A body within the length of its line, which hangs in a loop there, falls into it: mean tension over EA longer than 5
+// m.
+TEST(FastenedLine, HangsItsBodyThatBeganWithinItsLength) {
+  constexpr double stiffness = 1e5, mass = 50, length = 5 * (1 + (mass + 5) * gravity / stiffness);
+  for (const Vector3d& place : {Vector3d(0, 0, -4), Vector3d(1, 0, -3), Vector3d(0, 0, -4.99)}) {
+    const std::vector<RigidBody> bodies{bob(mass, place)};
+    const dynamics::Model model(bodies, {}, weight_and_line(bodies, {hung(springs(4, stiffness))}));
+    const dynamics::State rest = dynamics::equilibrium(model, dynamics::rest_state(bodies));
+    // 1e-9 of the weight is left over, on 100 N/m of the pendulum.
+    EXPECT_LT((rest.pose[0].centre - Vector3d(0, 0, -length)).norm(), 1e-7) << place.transpose();
+  }
+}
+
+// A loop whose ends are above one another turns about them without resistance: its stiffness is no rounding over
+// rounding, which was 1e13 times T/l and more.
+TEST(FastenedLine, HasNoStiffnessOfRoundingWhereALoopTurns) {
+  const Line line(springs(10, 1e5));
+  const auto rest = equilibrium(line, hanging_shape(line, ends_at(line, Vector3d(0, 0, -4))));
+  const Response pulls = pulls_at_rest(line, rest, {line.nodes() - 1});
+  EXPECT_LT(pulls.by_place.norm(), 1e9 * rest.tension.maxCoeff() / 0.5);  // the resistance is a 1e9th of it
+}
+
+/// A chain of 170 m from 3 m below the surface to an anchor 57 m deeper and 96 m to one side, 17 m longer than what
+/// hangs straight down and lies straight.
+FastenedLine slack_chain(int side) {
+  constexpr int n = 40;
+  Description d;
+  d.nodes.assign(n + 1, {});
+  Segment s = Segment::rod(170.0 / n, 80 * 170.0 / n);
+  s.axial_stiffness = 300e6;
+  s.diameter = 0.1;
+  d.segments.assign(n, s);
+  d.held = {{.node = 0}, {.node = n}};
+  d.gravity = gravity;
+  d.bed = {{.z = -60, .stiffness = 1e6, .damping = 1e5}};
+  Places places = Places::Zero(3, n + 1);
+  places.col(n) = Vector3d(100 * side, 0, -60);
+  return {.name = "chain", .run = d, .still = d, .places = places, .ends = {{0, {0, {4.0 * side, 0, -3}}}}};
+}
+
+// Between two slack chains nothing holds a body that 2 kN pull, until one of them lifts off its bed: it is found there,
+// and where nothing pulls it stays, which is no rest that topples.
+TEST(FastenedLine, HoldsItsBodyFarOffWhereItIsNoLongerSlack) {
+  const std::vector<RigidBody> bodies{RigidBody({.name = "buoy",
+                                                 .mass = 1e5,
+                                                 .inertia = 1e6 * Eigen::Matrix3d::Identity(),
+                                                 .free = {true, false, false, false, false, false}})};
+  for (const double pull : {0.0, 2000.0}) {
+    std::vector<std::unique_ptr<const dynamics::ForceKind>> forces;
+    forces.push_back(std::make_unique<FastenedLineKind>(std::vector<FastenedLine>{slack_chain(1), slack_chain(-1)}));
+    forces.push_back(std::make_unique<dynamics::ConstantLoadKind>(
+        std::vector<dynamics::ConstantLoad>{{{0, Vector3d::Zero()}, Vector3d(pull, 0, 0), Vector3d::Zero()}}));
+    const dynamics::Model model(bodies, {}, std::move(forces));
+    const dynamics::State rest = dynamics::equilibrium(model, dynamics::rest_state(bodies));
+    const double x = rest.pose[0].centre.x();
+    const dynamics::LineTension law = dynamics::catenary(
+        {.length = 170, .weight = 80 * gravity, .axial_stiffness = 300e6, .on_bed = true}, 96 + x, 57);
+    if (pull == 0)
+      EXPECT_EQ(x, 0);
+    else  // straight segments of 4 m touch the bed somewhere in one: a tenth of one in x at the stiffness there
+      EXPECT_NEAR(law.horizontal, pull, 0.4 * law.stiffness(0, 0));
+    const dynamics::frequency::SmallMotions about(model, rest);
+    EXPECT_TRUE(dynamics::frequency::toppling_motions(about).empty()) << pull;
+  }
 }
 
 // The static stiffness of a mooring is that of its catenary, by 20 catenary segments.

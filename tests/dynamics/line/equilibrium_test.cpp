@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "dynamics/line/catenary.hpp"
 #include "dynamics/line/stepper.hpp"
@@ -204,14 +205,15 @@ TEST(Equilibrium, LetsWhatStandsOnItsHeadTurnOver) {
 }
 
 // Longer than the water is deep it rises to the surface and floats there with half of its section wet, as heavy as it
-// is: 1/(ρA) of ½ + depth/D. Up to where it leaves the anchor it hangs straight.
+// is: near the middle the wet share of a circle is ½ + 4/π depth/D. Up to where it leaves the anchor it hangs straight.
 TEST(Equilibrium, LetsALongHoseFloatAtTheSurface) {
   for (const double current : {0.0, 0.2}) {
     const Line line(hose(20, 40, current));
     const State s = equilibrium(line, anchored(line));
     EXPECT_GE(s.tension.minCoeff(), -1e-6) << current;  // N: what floats without current has none
     const double share = 9.81 / (hose_lift + 9.81);
-    for (int i = 36; i <= 40; ++i) EXPECT_NEAR(s.position(2, i), (0.5 - share) * 0.05, 1e-5) << current << ' ' << i;
+    for (int i = 36; i <= 40; ++i)
+      EXPECT_NEAR(s.position(2, i), std::numbers::pi / 4 * (0.5 - share) * 0.05, 1e-5) << current << ' ' << i;
     EXPECT_GT(s.position(0, 40), 11.9) << current;
     // The links that rise through the surface are turned by as much as they are stiff: a link of 0.5 m in 8 m.
     EXPECT_NEAR(s.tension[0], hose_lift * 8, 0.07 * hose_lift * 8) << current;

@@ -3,6 +3,8 @@
 #include <optional>
 #include <vector>
 
+#include "hydro/base/state_bytes.hpp"
+
 namespace dynamics {
 
 /// A setting from some period on.
@@ -34,6 +36,10 @@ class DominantPeriodController {
   /// Called once at the end of each full step, in order, with the time and what is watched, the surge of a module or
   /// the elevation of the waves. \returns the new setting, or nothing to leave it
   std::optional<double> sample(double time_s, double value);
+  /// What it has seen and set, into bytes or out of them.
+  void keep_state(hydro::StateBytes& bytes) {
+    bytes.pass(time_, value_, next_check_, last_switch_, last_frequency_, setting_);
+  }
 
  private:
   double frequency() const;

@@ -30,6 +30,10 @@ class FastenedLineMemory final : public Memory {
  public:
   FastenedLineMemory(const std::vector<FastenedLine>& elements, const State& state);
   void accept(const State& state) override;
+  bool can_be_kept() const override { return true; }
+  void keep_state(hydro::StateBytes& bytes) override {
+    for (const auto& line : lines_) line->keep_state(bytes);
+  }
   /// Begins again at `state`, its lines at rest, with accelerations (3, all ends) of the points that hold them.
   void start(const State& state, const line::Places& accelerations);
   /// Accelerations (3, all ends) of the points that hold them, where bodies have `acceleration`, (6N).

@@ -45,6 +45,9 @@ class DrivenLine {
   /// The ends are there. \throws hydro::NumericsError if the line cannot follow
   void accept(double t_s, const std::vector<End>& ends);
 
+  /// All that steps go on from, into bytes or out of them.
+  void keep_state(hydro::StateBytes& bytes);
+
   const Line& line() const;
   const State& state() const;
   const Energies& energies() const;

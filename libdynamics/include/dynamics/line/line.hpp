@@ -14,6 +14,7 @@
 
 #include "dynamics/line/node_force.hpp"
 #include "dynamics/time/load_history.hpp"
+#include "hydro/base/state_bytes.hpp"
 #include "hydro/waves/kinematics/field.hpp"
 
 namespace dynamics::line {
@@ -209,6 +210,7 @@ struct State {
   Places position, velocity;   ///< tied nodes each have their own columns, which are the same
   Eigen::VectorXd tension;     ///< of each segment, N, > 0 pulls
   Eigen::Matrix2Xd grip = {};  ///< x and y at which a bed with friction holds each node, m; empty: where it starts
+  void keep_state(hydro::StateBytes& bytes) { bytes.pass(time, position, velocity, tension, grip); }
 };
 
 /// Direction of the link that begins at node `first`, as Huijgen 2024 has it (eqs. 4.3-4.5): d = ℓ (cos θ cos φ, cos θ

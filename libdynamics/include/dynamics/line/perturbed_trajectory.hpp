@@ -31,6 +31,8 @@ class PerturbedTrajectory {
   void follow(const State& state, const StepReport& took, double h);
 
   const Growth& growth() const;
+  /// All that it goes on from, into bytes or out of them.
+  void keep_state(hydro::StateBytes& bytes);
 
  private:
   struct Work;

@@ -26,12 +26,15 @@ class TensionStatistics {
   double slack_share(int segment) const;  ///< of the time, of one
   int snaps() const;                      ///< of all segments together
   int snaps(int segment) const { return snaps_[static_cast<std::size_t>(segment)]; }
+  void keep_state(hydro::StateBytes& bytes) {
+    bytes.pass(time_, any_slack_, slack_, armed_, snaps_, largest_.tension, largest_.time, largest_.segment);
+  }
 
  private:
   double slack_below_, snap_above_;
   double time_ = 0, any_slack_ = 0;
   Eigen::VectorXd slack_;
-  std::vector<bool> armed_;
+  std::vector<char> armed_;  // each true or false
   std::vector<int> snaps_;
   Largest largest_;
 };

@@ -40,6 +40,10 @@ struct Energies {
   double supplied() const { return held + drag + inertia + buoyancy + loads; }
   double dissipated() const { return lost_damping + lost_drag + lost_axial + lost_bed + lost_friction; }
   double residual() const { return total() - at_start - supplied() + dissipated(); }
+  void keep_state(hydro::StateBytes& bytes) {
+    bytes.pass(kinetic, height, axial, bed, shear, bending, held, drag, inertia, buoyancy, loads, lost_damping,
+               lost_drag, lost_axial, lost_bed, lost_friction, at_start);
+  }
 };
 
 /// What one full step took; of Scheme::rosenbrock its sub-steps, and how many of them were taken anew, shorter.
@@ -93,6 +97,10 @@ class Stepper {
   StepReport try_step(State& state, double h);
   /// `state`, where the last step led that was tried, or that it started from, is where the next ones begin.
   void keep(State& state);
+
+  /// What steps go on from at `state`, where the last one led that was made or kept, beside the state itself: into
+  /// bytes or out of them, of a stepper of the same line and settings.
+  void keep_state(State& state, hydro::StateBytes& bytes);
 
   /// The force that each held node needed at the end of the last step, (3, nodes). Of generalised-α alone.
   const Places& needed() const;

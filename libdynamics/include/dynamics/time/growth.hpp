@@ -3,6 +3,8 @@
 #include <optional>
 #include <vector>
 
+#include "hydro/base/state_bytes.hpp"
+
 namespace dynamics {
 
 /// The largest Lyapunov exponent over a time: neighbours part as e^{λt}.
@@ -37,6 +39,7 @@ class Growth {
   /// Over the times from from_s to the last, in equal blocks; nothing as long as there are fewer notes than blocks.
   /// \throws hydro::InputError unless from_s is above 0 and after the start, and for fewer than 2 blocks
   std::optional<Exponent> exponent(double from_s, int blocks = 20) const;
+  void keep_state(hydro::StateBytes& bytes) { bytes.pass(begins_, offset_, time_, logarithm_); }
 
  private:
   double at(double t_s) const;
