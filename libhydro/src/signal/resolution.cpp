@@ -68,7 +68,7 @@ std::string caution_of_resolution(const std::string& name, const TransferEstimat
   constexpr double small = 0.2;
   double most = small;
   std::size_t at = 0, many = 0, all = 0;
-  for (std::size_t k = 0; k < shift.size(); ++k) {
+  for (std::size_t k = 1; k < shift.size(); ++k) {  // the first is the mean
     if (!(half_width[k] > 0)) continue;
     const double share = std::abs(shift[k]) / half_width[k];
     ++all;
