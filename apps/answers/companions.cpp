@@ -118,17 +118,7 @@ Companions::Companions(const scene::Scene& scene, compile::Prepared prepared,
   given_ = by_tolerance_ ? solve.tolerance.has_value() : solve.step.has_value();
   tolerance_ = solve.tolerance.value_or(compile::tolerance_of_pair);
   step_ = compile::choose_step(scene, prepared_).value;
-  hold_memories();
-}
-
-/// Which method is cheapest depends on the step, and what methods differ by is no error of the step.
-void Companions::hold_memories() {
-  using enum scene::Memory::Method;
-  compile::Radiation radiation(prepared_, step_, nullptr);
-  std::vector<std::string> told_with_the_runs;
-  for (std::size_t i = 0; i < prepared_.groups.size(); ++i)
-    if (auto& method = prepared_.memory[i].method; prepared_.groups[i].radiation && method == automatic)
-      method = radiation.of(i, told_with_the_runs).in_run.poles ? poles : partitioned;
+  compile::hold_memories(prepared_, step_);
 }
 
 double Companions::largest_ratio() const {

@@ -101,7 +101,6 @@ class Companions {
     std::size_t stride = 1;
     std::optional<compile::VelocityRecord> motion = {};  ///< where it may be asked for, and is small
   };
-  void hold_memories();
   Made made(int level, const std::function<void(double)>& progress) const;
   Made stepped(int level, const std::function<void(double)>& progress) const;
   Run quarters_of(int level, int quarters, bool disturbed, const std::function<void(double)>& progress) const;

@@ -72,6 +72,11 @@ struct FollowedRecords {
     for (const auto& one : all) films.push_back(&one->measured);
     share_deviations(films);
   }
+
+  /// True if no record's scene gives its steps.
+  bool own_steps() const {
+    return std::all_of(all.begin(), all.end(), [](const auto& one) { return one->runs.own_steps(); });
+  }
 };
 
 /// The deviation of a signal's noise, SI, and the dimension of its column against that of the run.
@@ -356,7 +361,8 @@ class MotionFits final : public FitKindOf<MotionModel, ::fit::motion::Problem> {
                                            .starts = model.starts,
                                            .iterations_reach = model.iterations,
                                            .profile = model.profile,
-                                           .accept_residuals = model.accept_residuals}};
+                                           .accept_residuals = model.accept_residuals,
+                                           .own_steps = runs->own_steps()}};
     for (const auto& q : model.parameters) out.parameters.push_back({q.number, q.unit});
     for (std::size_t r = 0; r < model.records.size(); ++r) add_record(model.records[r], *runs->all[r], out);
     const std::vector<std::string> units = runs->all[0]->runs.units();

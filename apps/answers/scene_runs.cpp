@@ -6,6 +6,8 @@
 
 #include "answers/camera_track.hpp"
 #include "answers/fit_measurements.hpp"
+#include "compile/integrator.hpp"
+#include "compile/radiation.hpp"
 #include "dynamics/integrate/newton_integrator.hpp"
 #include "fit/sensor.hpp"
 #include "hydro/base/error.hpp"
@@ -210,6 +212,14 @@ MeasuredRun MeasuredRun::read(const scene::FitScene& fit, const scene::MotionMod
   });
 }
 
+namespace {
+
+bool makes_steps_by_tolerance(const scene::Solve& solve) {
+  return solve.tolerance || compile::has_own_tolerance(solve.integrator);
+}
+
+}  // namespace
+
 void share_deviations(const std::vector<MeasuredRun*>& films) {  // (V12)
   Eigen::ArrayXd squares = Eigen::ArrayXd::Zero(std::ssize(films.front()->deviations));
   double frames = 0;
@@ -325,6 +335,7 @@ void SceneRuns::compiled(const Eigen::VectorXd& parameters) {
     step->value = measured_.step / std::max(1.0, std::ceil(measured_.step / step->value - 1e-3));
   else if (chosen_step_)
     step = {*chosen_step_, {}};
+  divide(scene_.solve);
   // Derivatives are differences of runs.
   scene_.solve.newton_tolerance = dynamics::NewtonIntegrator::least_residual_tolerance;
   scene_.run->of.clear();
@@ -334,9 +345,36 @@ void SceneRuns::compiled(const Eigen::VectorXd& parameters) {
     scene_.run->of_places.push_back(s.deviation.place);
   }
   prepared_ = compile::prepare(scene_, prepared_.kept);
+  for (std::size_t i = 0; i < memory_methods_.size(); ++i) prepared_.memory[i].method = memory_methods_[i];
   model_.emplace(compile::time_model(scene_, prepared_));
   if (!chosen_step_) chosen_step_ = model_->step;
   numbers_ = parameters;
+}
+
+/// (F117) Where a tolerance makes the steps, it falls by as much as companions of a run have it.
+void SceneRuns::divide(scene::Solve& solve) const {
+  if (divided_ == 1) return;
+  const double levels = std::log2(divided_);
+  if (solve.step) solve.step->value /= divided_;
+  if (makes_steps_by_tolerance(solve))
+    solve.tolerance = solve.tolerance.value_or(compile::tolerance_of_pair) * std::pow(10, -levels);
+  solve.line_tolerance = scene::line_tolerance(scene_) * std::pow(4, -levels);
+}
+
+bool SceneRuns::divide_steps(int by) {
+  if (by == divided_) return true;
+  if (memory_methods_.empty()) {
+    compile::hold_memories(prepared_, model_->step);
+    for (const auto& memory : prepared_.memory) memory_methods_.push_back(memory.method);
+  }
+  divided_ = by;
+  model_.reset();
+  return true;
+}
+
+bool SceneRuns::own_steps() const {
+  const scene::Solve solve = source_.with({}).solve;
+  return makes_steps_by_tolerance(solve) ? !solve.tolerance : !solve.step;
 }
 
 Run SceneRuns::run(Eigen::Index samples, compile::MovingState* end) {

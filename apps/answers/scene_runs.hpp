@@ -68,7 +68,10 @@ class SceneRuns final : public ::fit::Simulation {
   Eigen::Index coordinates(std::size_t window) override;
   Eigen::MatrixXd follow(std::size_t window, const Eigen::VectorXd& parameters, const Eigen::VectorXd& start) override;
   void hand_on(std::size_t window, const Eigen::VectorXd& parameters, const Eigen::VectorXd& start) override;
+  bool divide_steps(int by) override;
 
+  /// True if the scene gives no step, nor a tolerance where that makes the steps.
+  bool own_steps() const;
   /// Units of the signals, in their order. \throws hydro::InputError at a signal that there is not
   std::vector<std::string> units();
   /// What all trials share: coefficients as they were read, and their poles.
@@ -79,6 +82,7 @@ class SceneRuns final : public ::fit::Simulation {
   const scene::Located<std::filesystem::path>& scene_file() const;
   std::vector<scene::OverriddenValue> numbers(const Eigen::VectorXd& parameters) const;
   void compiled(const Eigen::VectorXd& parameters);
+  void divide(scene::Solve& solve) const;
   Run run(Eigen::Index samples, compile::MovingState* end);
   void begin_windows();
 
@@ -94,6 +98,9 @@ class SceneRuns final : public ::fit::Simulation {
   /// s, where the scene gives none: that of the numbers as it has them. It is held while they are searched for, since
   /// motions jump by the error of a step where that changes.
   std::optional<double> chosen_step_;
+  int divided_ = 1;
+  /// Method of each memory, held once steps are divided.
+  std::vector<scene::Memory::Method> memory_methods_;
 };
 
 }  // namespace froude

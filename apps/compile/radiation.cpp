@@ -204,4 +204,13 @@ RadiationParts Radiation::of(std::size_t group, std::vector<std::string>& notes)
   return out;
 }
 
+void hold_memories(Prepared& prepared, double step) {
+  using enum scene::Memory::Method;
+  Radiation radiation(prepared, step, nullptr);
+  std::vector<std::string> told_with_the_runs;
+  for (std::size_t i = 0; i < prepared.groups.size(); ++i)
+    if (auto& method = prepared.memory[i].method; prepared.groups[i].radiation && method == automatic)
+      method = radiation.of(i, told_with_the_runs).in_run.poles ? poles : partitioned;
+}
+
 }  // namespace froude::compile

@@ -35,4 +35,8 @@ class Radiation {
   std::vector<WeighedMemories::Weighed> told_;
 };
 
+/// Where the program chooses the method of a memory, it stays what it is at this step: which is cheapest depends on the
+/// step, and what methods differ by is no error of the step.
+void hold_memories(Prepared& prepared, double step);
+
 }  // namespace froude::compile

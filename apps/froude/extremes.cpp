@@ -1,4 +1,6 @@
 // `froude extremes`: the largest values that a record lets one expect, without a law of the signal.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -51,6 +53,23 @@ std::optional<StepsDone> take_part(RunResult& record, const ExtremesArguments& a
   return done;
 }
 
+/// Both laws tell the largest of many peaks: a duration in which none is expected above the threshold has no such, and
+/// with a probability p none comes there in rate · D ≤ −ln p. \throws InputError at the option
+void require_exceedances(const Extremes& e) {
+  const double expected = e.tail.rate_hz * e.duration;
+  hydro::require(!e.probabilities.empty(), "no probability is asked for");
+  const double lowest = *std::min_element(e.probabilities.begin(), e.probabilities.end()),
+               needed = lowest > 0 && lowest < 1 ? std::max(1.0, -std::log(lowest)) : 1;
+  if (expected >= needed) return;
+  throw hydro::InputError(
+      fmt::format("of {} peaks beyond {:.5g} {} in {:.6g} s a duration of {:.6g} s holds {:.2g} on average, and its "
+                  "largest value is only told where it holds {:.3g}{}",
+                  e.above, e.sign * e.tail.threshold, e.signal.units, e.recorded, e.duration, expected, needed,
+                  needed > 1 ? fmt::format(", for the quantile {:g}", lowest) : " or more"),
+      {.file = "--duration"},
+      fmt::format("take {:.6g} s or more, or a --threshold that more peaks are beyond", needed / e.tail.rate_hz));
+}
+
 Extremes find(const ExtremesArguments& a) {
   RunResult record = read_record(a.file);
   hydro::require(!record.time.empty(), "the record has no samples");
@@ -77,6 +96,7 @@ Extremes find(const ExtremesArguments& a) {
   out.tail = hs::fit_tail(out.peaks, threshold, out.recorded);
   out.above = static_cast<std::size_t>(
       std::count_if(out.peaks.begin(), out.peaks.end(), [&](double p) { return p > threshold; }));
+  require_exceedances(out);
   const double block = a.block ? option_si("--block", *a.block, hydro::dim::time) : out.recorded / 20;
   out.maxima = hs::block_maxima(record.time, out.signal.values, block);
   out.blocks = hs::fit_maxima(out.maxima, block);

@@ -42,4 +42,10 @@ bool SeveralRecords::moves(std::size_t window, std::size_t parameter) const {
   return std::find(takes.begin(), takes.end(), static_cast<Eigen::Index>(parameter)) != takes.end();
 }
 
+bool SeveralRecords::divide_steps(int by) {
+  bool any = false;
+  for (const Record& record : records_) any = record.simulation->divide_steps(by) || any;
+  return any;
+}
+
 }  // namespace fit

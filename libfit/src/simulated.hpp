@@ -43,6 +43,8 @@ std::vector<Eigen::Index> measured_rows(const SimulationProblem& problem);
 
 /// \throws as fit_simulation()
 EndOfSearch search_simulation(Simulation& simulation, const SimulationProblem& problem);
+/// Residuals over deviations of all windows where the search of `fit` ended, by the simulation as it is now.
+Eigen::VectorXd residuals_at_end(Simulation& simulation, const SimulationProblem& problem, const SimulationFit& fit);
 /// The least cost alone, of any number of parameters. \throws as fit_simulation(), and SearchFailed
 double least_cost(Simulation& simulation, const SimulationProblem& problem);
 /// The cost from `problem.begin` after two steps by its Jacobian: the least, as far as the residuals are straight

@@ -53,6 +53,7 @@ class Shooting {
   std::vector<Eigen::MatrixXd> motions(const Eigen::VectorXd& theta);
   double least_cost();  ///< that of end(), which tells more of it
   double cost_nearby();
+  Eigen::VectorXd residuals_of(const SimulationFit& fit);
 
  private:
   Eigen::Index p() const { return std::ssize(problem_.parameters); }
@@ -427,6 +428,17 @@ double Shooting::cost_nearby() {
   return minimise(model(), x, {.gradient_below = 1e-9, .step_below = 1e-8, .iterations_reach = 2}).cost_last;
 }
 
+Eigen::VectorXd Shooting::residuals_of(const SimulationFit& fit) {
+  Eigen::VectorXd r(fit.end.jacobian.rows());
+  Eigen::Index row = 0;
+  for (std::size_t w = 0; w < problem_.measured.size(); ++w) {
+    const Eigen::VectorXd own = residuals(w, fit.end.unknowns.head(p()), fit.starts.at(w));
+    r.segment(row, own.size()) = own;
+    row += own.size();
+  }
+  return r;
+}
+
 }  // namespace
 
 void whiten(const SimulationProblem& problem, std::size_t window, Eigen::MatrixXd& residuals) {  // (F101)
@@ -455,6 +467,10 @@ EndOfSearch search_simulation(Simulation& simulation, const SimulationProblem& p
 std::vector<Eigen::MatrixXd> follow_all(Simulation& simulation, const SimulationProblem& problem,
                                         const Eigen::VectorXd& parameters) {
   return Shooting(simulation, problem).motions(parameters);
+}
+
+Eigen::VectorXd residuals_at_end(Simulation& simulation, const SimulationProblem& problem, const SimulationFit& fit) {
+  return Shooting(simulation, problem).residuals_of(fit);
 }
 
 double least_cost(Simulation& simulation, const SimulationProblem& problem) {

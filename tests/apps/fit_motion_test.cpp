@@ -75,6 +75,35 @@ TEST_F(Fit, OfSeveralRecordsHasTheTruthInItsIntervalsAndFitsTheOneHeldBack) {
   EXPECT_GT(guessed["signal"][0]["rms"].get<double>(), 0.1);
 }
 
+// At 0.01 s the linear damping is a half-width too large, which the caution says and the interval holds. Without a step
+// the fit divides the one that the samples would have until no value moves by a fifth of a half-width.
+TEST_F(Fit, OfASceneCountsTheErrorOfItsSteps) {
+  const auto with = [&](const char* step) {
+    const auto scene = changed("swings.toml", "title", "title");  // with all files beside it
+    std::string text = hydro::io::read_text(examples / "swings_scene.toml");
+    const std::string own = "step = \"0.0025 s\"";
+    text.replace(text.find(own), own.size(), step);
+    hydro::io::write_atomically(folder / "swings_scene.toml", text);
+    return nlohmann::json::parse(told({.scene = scene}, true));
+  };
+  const auto given = with("step = \"0.01 s\""), chosen = with("");
+  ASSERT_EQ(given["cautions"].size(), 1u) << given.dump(1);
+  EXPECT_THAT(given["cautions"][0].get<std::string>(),
+              AllOf(HasSubstr("line.damping.linear too large by 0.0002"), HasSubstr("steps divided by 4")));
+  EXPECT_EQ(given["steps_divided_by"], 1);
+  EXPECT_FALSE(chosen.contains("cautions")) << chosen.dump(1);
+  EXPECT_GT(chosen["steps_divided_by"], 1);
+  for (const auto& j : {given, chosen}) {
+    EXPECT_TRUE(holds(j["parameter"]["line_damping_linear"], 0.006)) << j.dump(1);
+    EXPECT_TRUE(holds(j["parameter"]["line_damping_quadratic"], 0.004)) << j.dump(1);
+  }
+  // What the coarse steps are said to do is what the short ones do, to what is left of theirs.
+  const auto& coarse = given["parameter"]["line_damping_linear"];
+  const double moved =
+      chosen["parameter"]["line_damping_linear"]["value"].get<double>() - coarse["value"].get<double>();
+  EXPECT_NEAR(coarse["shift_of_short_steps"].get<double>(), moved, 0.2 * std::abs(moved));
+}
+
 TEST_F(Fit, OfSeveralRecordsSaysWhatIsWrongWithOne) {
   const auto refuses = [&](const char* from, const char* to, const char* with) {
     const auto scene = changed("swings.toml", from, to);

@@ -120,6 +120,15 @@ TEST_F(Psd, ExtremesAreThoseOfThePeaksAndOfTheirMirror) {
               ThrowsMessage<InputError>(HasSubstr("length")));
   EXPECT_THAT([&] { told({.file = folder / "e.csv", .signal = "x", .threshold = "1.95 m"}); },
               ThrowsMessage<InputError>(HasSubstr("a tail needs 10")));
+  // 50 of 100 peaks in 1999 s: one is expected in 40 s, and with a probability of a tenth 2.3 must be.
+  const auto in = [&](const char* duration, std::vector<double> quantiles) {
+    return told(
+        {.file = folder / "e.csv", .signal = "x", .duration = duration, .threshold = "1.5 m", .quantiles = quantiles});
+  };
+  EXPECT_THAT([&] { in("30 s", {}); },
+              ThrowsMessage<InputError>(testing::AllOf(HasSubstr("--duration"), HasSubstr("holds 0.7"))));
+  EXPECT_THAT([&] { in("60 s", {0.1}); }, ThrowsMessage<InputError>(HasSubstr("for the quantile 0.1")));
+  for (const auto& e : in("60 s", {0.5})["estimates"]) EXPECT_TRUE(e["level"].is_number());  // and no null for −∞
 }
 
 // A spike of the sensor would be the largest value of all, 6 m above waves of 1.5 m.

@@ -117,6 +117,24 @@ TEST(TowingRecords, CountTheMemoryOfTheNoiseInAShortRest) {
   EXPECT_GE(held, 50);  // binomial with p = 0.95 and 60 tows: 57 ± 1.7; four deviations below
 }
 
+// Noise of 2 s, of which a tow of 46 s holds eleven independent samples: scatter and memory from so few are too small,
+// and a normal law about the zero was too narrow.
+TEST(TowingRecords, CountThatFewSamplesTellTheErrorOfTheZero) {
+  constexpr double cd = 1.1;
+  int held = 0, told = 0;
+  for (std::uint64_t seed = 0; seed < 120; ++seed) {
+    const double rest = seed % 2 == 0 ? 4 : 6;
+    try {
+      const auto interval = solve(problem_of({noisy(cd, 2, rest, 5000 + seed / 2)})).records[0].cd.interval;
+      held += interval.low < cd && cd < interval.high ? 1 : 0;
+      ++told;
+    } catch (const hydro::InputError&) {  // a record that does not settle
+    }
+  }
+  EXPECT_GE(told, 110);
+  EXPECT_GE(held, 0.9 * told);
+}
+
 TEST(TowingRecords, MayHaveSamplesWhoseNoiseTurnsTheirSign) {
   Problem problem = problem_of({noisy(0.15, 0.1, 10, 1)});  // 1.4 N with noise of 1 N
   problem.options.prepare.filters.clear();

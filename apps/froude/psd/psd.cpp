@@ -10,6 +10,7 @@
 #include "hydro/base/units.hpp"
 #include "hydro/signal/lomb_scargle.hpp"
 #include "hydro/signal/multitaper.hpp"
+#include "hydro/signal/resolution.hpp"
 #include "scene/placed.hpp"
 #include "scene/scene.hpp"
 
@@ -80,6 +81,10 @@ Estimate estimate(const Signal& signal, const RunResult& record, const Analysis&
                      e.moments->tm02());
   if (input != nullptr && input->name != signal.name)
     e.transfer = hs::transfer(input->values, signal.values, analysis.step, analysis.options);
+  if (e.transfer) {
+    const hs::InputOutput both{input->values, signal.values};
+    e.resolution = hs::resolution_shift_of_gain(*e.transfer, {&both, 1}, analysis.step, analysis.options);
+  }
   if (e.transfer) e.transfer->coherence_threshold = hs::coherence_threshold(e.transfer->averages, analysis.confidence);
   return e;
 }

@@ -15,6 +15,7 @@
 #include "hydro/io/csv.hpp"
 #include "hydro/io/hdf5.hpp"
 #include "hydro/signal/distributions.hpp"
+#include "hydro/signal/resolution.hpp"
 
 namespace froude::spectra {
 namespace {
@@ -97,6 +98,16 @@ double half_band(const hs::TransferEstimate& transfer, std::size_t k, double con
   return hs::student_t_quantile((1 + confidence) / 2, 2 * (transfer.averages - 1)) * transfer.gain_relative_error[k];
 }
 
+/// Half of the bands of |H1|; NaN where the two may be unrelated.
+std::vector<double> told_half_bands(const Estimate& e, double confidence) {
+  std::vector<double> out;
+  for (std::size_t k = 0; k < e.transfer->h1.size(); ++k)
+    out.push_back(e.transfer->coherence[k] < e.transfer->coherence_threshold
+                      ? std::numeric_limits<double>::quiet_NaN()
+                      : half_band(*e.transfer, k, confidence) * std::abs(e.transfer->h1[k]));
+  return out;
+}
+
 /// Where the input is strongest, the response is known best: one line for each output.
 void add_response(const Analysis& a, Report& report) {
   const auto input =
@@ -156,8 +167,10 @@ std::vector<Column> columns_of(const Analysis& a) {
                            {e.signal.name + ".gain_relative_error", "", e.transfer->gain_relative_error}});
     for (const auto& [end, sign] : {std::pair{"low", -1.0}, {"high", 1.0}}) {
       Column edge{fmt::format("{}.gain_h1_{}", e.signal.name, end), unit, h1.values};
-      for (std::size_t k = 0; k < edge.values.size(); ++k)
+      for (std::size_t k = 0; k < edge.values.size(); ++k) {
         edge.values[k] *= 1 + sign * half_band(*e.transfer, k, a.confidence);
+        if (!e.resolution.empty()) edge.values[k] += sign * std::max(0.0, sign * e.resolution[k]);
+      }
       out.push_back(std::move(edge));
     }
     Column hv{e.signal.name + ".gain_hv", unit, {}};
@@ -232,6 +245,12 @@ std::vector<std::string> notes_of(const Analysis& a) {
   std::vector<std::string> out;
   for (const Estimate& e : a.estimates)
     for (std::string& note : notes_of(e, a.uneven_segment.has_value())) out.push_back(std::move(note));
+  for (const Estimate& e : a.estimates) {
+    if (!e.transfer) continue;
+    std::string caution =
+        hs::caution_of_resolution(e.signal.name, *e.transfer, e.resolution, told_half_bands(e, a.confidence));
+    if (!caution.empty()) out.push_back(std::move(caution));
+  }
   return out;
 }
 

@@ -26,6 +26,7 @@ class SeveralRecords final : public Simulation {
   Eigen::MatrixXd follow(std::size_t window, const Eigen::VectorXd& parameters, const Eigen::VectorXd& start) override;
   void hand_on(std::size_t window, const Eigen::VectorXd& parameters, const Eigen::VectorXd& start) override;
   bool moves(std::size_t window, std::size_t parameter) const override;
+  bool divide_steps(int by) override;
 
  private:
   struct Of {

@@ -32,6 +32,9 @@ class Simulation {
   virtual void hand_on(std::size_t window, const Eigen::VectorXd& parameters, const Eigen::VectorXd& start) = 0;
   /// Whether this parameter can move this window: where it cannot, no sensitivity is run for.
   virtual bool moves(std::size_t /*window*/, std::size_t /*parameter*/) const { return true; }
+  /// From now on its steps are those that it has of itself divided by this number, 1 or a power of two; what was handed
+  /// on stays. False: it has no steps, and so no error of them. (F117)
+  virtual bool divide_steps(int /*by*/) { return false; }
 };
 
 struct SimulationParameter {

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "hydro/signal/distributions.hpp"
+#include "hydro/signal/resolution.hpp"
 #include "hydro/waves/dispersion.hpp"
 #include "prepare_steps.hpp"
 #include "telling.hpp"
@@ -138,6 +140,13 @@ struct Heard {
   double passed, waves;
 };
 
+/// (F118) The interval reaches from where it is to where endlessly long segments would have it.
+void count_resolution(double shift, Coefficient& c) {
+  c.interval = {c.interval.low + std::min(0.0, shift), c.interval.high + std::max(0.0, shift)};
+  c.systematic_error = std::hypot(c.systematic_error, shift);
+  c.standard_error = std::hypot(c.standard_error, shift);
+}
+
 /// (S9) with the errors of both slopes (F105).
 Coefficient gain_at(const hs::TransferEstimate& t, std::size_t k, const SlopeError& slope, Heard heard,
                     double confidence) {
@@ -170,9 +179,10 @@ Response response_of(const Problem& problem, const Solution& so_far, std::size_t
   const Options& options = problem.options;
   const double peak = 2 * std::numbers::pi * so_far.waves.frequency_hz[peak_of(so_far.waves)];
   const std::ptrdiff_t later = samples_between(problem, so_far, peak, step);
-  Response out{problem.runs[0].responses[i].name,
-               hs::transfer(moved(so_far.records, i, later), step, {.segment = so_far.segment_samples}),
-               {}};
+  const std::vector<hs::InputOutput> runs = moved(so_far.records, i, later);
+  const hs::WelchOptions segments{.segment = so_far.segment_samples};
+  Response out{problem.runs[0].responses[i].name, hs::transfer(runs, step, segments), {}, {}, {}};
+  out.resolution = hs::resolution_shift_of_gain(out.transfer, runs, step, segments);
   turn_phases(options.tank, static_cast<double>(later) * step, out.transfer);
   out.transfer.coherence_threshold = hs::coherence_threshold(out.transfer.averages, options.confidence);
   const SlopeError slope = slope_error_of(problem.elevation_slope, problem.response_slopes, i);
@@ -182,6 +192,12 @@ Response response_of(const Problem& problem, const Solution& so_far, std::size_t
                                {gain_of(options.prepare, step, 2 * std::numbers::pi * out.transfer.frequency_hz[k]),
                                 so_far.waves.density[k] / highest},
                                options.confidence));
+  for (std::size_t k = 0; k < out.resolution.size(); ++k) {
+    Coefficient& gain = out.gain[k];
+    out.half_width.push_back(gain.value ? (gain.interval.high - gain.interval.low) / 2
+                                        : std::numeric_limits<double>::quiet_NaN());
+    count_resolution(out.resolution[k], gain);
+  }
   return out;
 }
 
@@ -205,7 +221,9 @@ Report told(const Response& r, const std::string& unit, const Solution& found) {
   out.facts = {{"name", r.name},     {"unit", unit + "/m"},      {"gain_h1", h1},
                {"gain_h1_low", low}, {"gain_h1_high", high},     {"gain_h2", h2},
                {"phase_rad", phase}, {"coherence", t.coherence}, {"phase_error_rad", t.gain_relative_error}};
+  out.facts.emplace_back("resolution_shift", r.resolution);
   out.estimates = {{.coefficient = r.gain[peak], .unit = unit + "/m", .key = "at_peak"}};
+  out.warn(hs::caution_of_resolution(r.name, t, r.resolution, r.half_width));
   return out;
 }
 

@@ -7,6 +7,7 @@
 #include "fit/verdict.hpp"
 #include "hydro/base/dense.hpp"
 #include "motion_channels.hpp"
+#include "motion_steps.hpp"
 #include "telling.hpp"
 
 namespace fit::motion {
@@ -256,12 +257,14 @@ Report told(const Problem& problem, const SimulationFit& fit) {
 }
 
 /// (F65), (F66) Nothing is told but what stands against it.
-std::optional<Refusal> refusal_of(const Problem& problem, const SimulationFit& fit, const std::string& trouble) {
+std::optional<Refusal> refusal_of(const Problem& problem, const SimulationFit& fit, const std::string& trouble,
+                                  const std::string& trouble_of_steps) {
   if (fit.refused.empty()) return {};
   std::string more;
   for (std::size_t c = 0; c < problem.signals.size(); ++c)
     if (!fit.stated[c].hold()) more += "; " + difference(problem, fit, c);
-  if (!trouble.empty()) more += "; " + trouble;
+  for (const std::string& one : {trouble, trouble_of_steps})
+    if (!one.empty()) more += "; " + one;
   const std::vector<std::string> best = point(problem, fit.end.unknowns);
   if (!fit.search.ended())
     return Refusal{.reason = Refusal::Reason::search_without_end,
@@ -302,43 +305,40 @@ void count_slopes(const Problem& problem, SimulationFit& fit) {
 }
 
 void add_profiles(const Problem& problem, const SimulationProblem& simulated, const SimulationFit& fit,
-                  Report& report) {
+                  const std::optional<StepError>& steps, Report& report) {
   try {
     for (std::size_t k = 0; k < report.estimates.size(); ++k)
-      if (const Coefficient& c = fit.parameters[k]; c.value && c.standard_error > 0)
-        report.estimates[k].profile = profile_interval(*problem.simulation, simulated, fit, k);
+      if (const Coefficient& c = fit.parameters[k]; c.value && c.standard_error > 0) {
+        const Interval own = profile_interval(*problem.simulation, simulated, fit, k);
+        report.estimates[k].profile = steps ? with_steps(*steps, k, own) : own;
+      }
   } catch (const hydro::NumericsError& e) {
     report.refused = {Refusal::Reason::profile_without_an_end, e.what()};
   }
-}
-
-/// Profiles need the windows as the search of the fit handed them on: where another came after it, it is done again.
-SimulationFit again(const Problem& problem, SimulationProblem search, const SeveralStarts& several) {
-  for (std::size_t k = 0; k < search.parameters.size(); ++k)
-    search.parameters[k].first = several.searches[several.best_of].first[static_cast<Eigen::Index>(k)];
-  return fit_simulation(*problem.simulation, search);
 }
 
 }  // namespace
 
 Solution solve(const Problem& problem) {
   const SimulationProblem search = simulated(problem);
-  Simulation& simulation = *problem.simulation;
   const Options& options = problem.options;
-  SeveralStarts several = options.starts.value_or(1) > 1
-                              ? fit_simulation_from(simulation, search, *options.starts)
-                              : fit_simulation_insisting(simulation, search, options.starts ? 0 : starts_after_failure);
-  Solution out{.report = {}, .fit = std::move(several.best), .trouble = {}};
+  const SteppedSearch found = search_with_steps(problem, search);
+  const SeveralStarts& several = found.several;
+  Solution out{.report = {}, .fit = several.best, .trouble = {}};
   // Errors that channels share would be another matter once two of them are exchanged.
   if (!out.fit.refused.empty() && problem.whitening.empty())
     out.trouble = trouble_of_channels(problem, search, out.fit);
   count_slopes(problem, out.fit);
+  if (found.error) count_steps(*found.error, out.fit);
   out.report = told(problem, out.fit);
+  tell_steps(problem, found, out.report);
   if (several.tried > 1) add_starts(problem, several, out.report);
-  out.report.refused = refusal_of(problem, out.fit, out.trouble);
+  out.report.refused = refusal_of(problem, out.fit, out.trouble, trouble_of_steps(found));
   if (out.report.refused || !options.profile) return out;
-  if (several.best_of + 1 < several.searches.size()) out.fit = again(problem, search, several);
-  add_profiles(problem, search, out.fit, out.report);
+  // Profiles need the windows as the search of the fit handed them on.
+  if (several.best_of + 1 < several.searches.size() && !found.last_in_windows)
+    out.fit = searched_again(problem, search, several);
+  add_profiles(problem, search, out.fit, found.error, out.report);
   return out;
 }
 

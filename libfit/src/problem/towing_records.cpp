@@ -48,11 +48,13 @@ Stretch settled(const PreparedTow& tow, Stretch even) {
 /// Standard error of the mean over a rest of `duration_s` whose noise has the correlation time θ, e^{−t/θ}: the mean
 /// has the share r = (2θ/T)(1 − (θ/T)(1 − e^{−T/θ})) of its variance, and scatter about the mean is the rest of it. A
 /// short rest tells little of θ by itself, so that it is the steady part's, and one of less than ten θ little of its
-/// scatter, which is then no less than the steady part's; (F93).
+/// scatter, which is then no less than the steady part's. Scatter about the mean of that is too small too, and so is a
+/// correlation time from n samples that are independent, by 5/2n of itself; (F93).
 double error_of_rest(const SteadyMean& rest, const SteadyMean& towed, double duration_s, double theta_s) {
-  const double x = theta_s / duration_s, share = 2 * x * (1 - x * -std::expm1(-1 / x));
+  const double few = std::min(0.5, 1 / towed.effective_samples), x = theta_s * (1 + 2.5 * few) / duration_s,
+               share = 2 * x * (1 - x * -std::expm1(-1 / x));
   double deviation = rest.deviation / std::sqrt(1 - share);
-  if (10 * x > 1) deviation = std::max(deviation, towed.deviation);
+  if (10 * x > 1) deviation = std::max(deviation, towed.deviation / std::sqrt(1 - few));
   return std::max(rest.error, deviation * std::sqrt(share));
 }
 
@@ -114,11 +116,11 @@ Stretch steady_part(PreparedTow& p, const Options& options) {
 /// What does not average out within a record, N. Of a cell's loop half the width on either side of the line, even in
 /// between: a deviation of 1/√3 of the half, (F26).
 struct ForceErrors {
-  double own = 0, common = 0;
+  double zero = 0, own = 0, common = 0;
 };
 ForceErrors errors_of(const PreparedTow& p, Stretch steady) {
   ForceErrors out;
-  for (const double e : p.zero_errors) out.own = std::hypot(out.own, e);
+  for (const double e : p.zero_errors) out.zero = std::hypot(out.zero, e);
   for (const ForceChannel& f : p.channels) {
     if (!f.calibration) continue;
     const Calibration& c = *f.calibration;
@@ -138,7 +140,8 @@ void add_coefficient(const Problem& problem, RecordedTow& r) {
     return towing_point(c, {r.speed.value, speed_error, r.force.value, force_error});
   };
   const ForceErrors errors = errors_of(r.prepared, r.steady);
-  const TowingPoint scatter = point(r.force.error, r.speed.error), own = point(errors.own, 0),
+  // The zero is known by the scatter of the same noise: Student's t is that of the force.
+  const TowingPoint scatter = point(std::hypot(r.force.error, errors.zero), r.speed.error), own = point(errors.own, 0),
                     slope = point(errors.common, 0);
   r.re = scatter.re;
   const double common = std::hypot(

@@ -33,7 +33,11 @@ struct Problem {
 struct Response {
   std::string name;
   hydro::signal::TransferEstimate transfer;  ///< phases before the wave at the body, where there is a tank
-  /// |H₁|; without a value where the two may be unrelated, or filters leave less than half of both
+  /// By how much |H₁| would move if segments were endlessly long, along frequency; empty: they are too short to tell
+  std::vector<double> resolution;
+  std::vector<double> half_width;  ///< of the intervals of |H₁| without that; NaN where no value is told
+  /// |H₁|, with that in its interval (F118); without a value where the two may be unrelated, or filters leave less than
+  /// half of both
   std::vector<Coefficient> gain;
 };
 

@@ -23,6 +23,8 @@ struct Options {
   int iterations_reach = 60;
   bool profile = false;           ///< intervals by profile likelihood
   bool accept_residuals = false;  ///< values are told though residuals exceed what the deviations allow (F66)
+  /// Nobody gave the simulation's steps: they are divided until their error is small against the intervals (F117).
+  bool own_steps = false;
 };
 
 struct Parameter {
