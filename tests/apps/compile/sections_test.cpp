@@ -78,7 +78,7 @@ mesh = "barge.obj"
 frequencies = "0.3 rad/s .. 1.5 rad/s, 5 values"
 mesh_tolerance = 0.9
 excitation = true
-radiation = { memory_tolerance = 1e-2 }
+radiation = { accept_error = 0.9 }
 hydrostatics = true
 )" + sections +
          asked.more + "[ask]\naccuracy = 0.5\nrao = { " + asked.waves + " }\n";
