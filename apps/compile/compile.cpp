@@ -12,6 +12,7 @@
 #include "compile/members.hpp"
 #include "compile/radiation.hpp"
 #include "compile/second_order.hpp"
+#include "compile/sections.hpp"
 #include "compile/signals.hpp"
 #include "compile/step.hpp"
 #include "compile/waves.hpp"
@@ -68,6 +69,7 @@ Prepared prepare(const Scene& scene, std::shared_ptr<Kept> kept) {
   out.water = scene.water;
   add_buoyancy(scene, out);
   add_hydrodynamics(scene, out);
+  add_sections(scene, out);
   add_connections(scene, out);
   out.elements = scene.elements;
   add_fastened_lines(scene, out);
@@ -337,6 +339,7 @@ hydro::waves::Sea sea_of_run(const Scene& scene, const Prepared& prepared, std::
 
 TimeModel time_model(const Scene& scene, const Prepared& prepared, const std::vector<LoadRecord>& put_back,
                      bool memory_apart) {
+  require_no_sections(scene);
   const ChosenStep chosen = choose_step(scene, prepared);
   const double step = chosen.value;
   const auto per_sample = static_cast<std::size_t>(std::llround(scene.run->every / step));

@@ -50,6 +50,18 @@ struct RuledConnectors {
 
 /// What both domains share: bodies, coefficients placed about the centres of gravity, springs. In the order of the
 /// scene.
+/// A section of a body, and where its loads are in a table of loads on parts (hydro::panels::Solution::parts), about
+/// the centres of gravity of bodies.
+struct PreparedSection {
+  int body;
+  std::size_t section;  ///< of scene::Body::sections
+  std::shared_ptr<const hydro::potential::FrequencyTable> table;
+  Eigen::Index row;                   ///< the first of six
+  std::vector<int> bodies;            ///< of the scene, whose motions make waves that reach it
+  std::vector<Eigen::Index> columns;  ///< the first of six of each of these
+  bool radiation, excitation;         ///< effects that act
+};
+
 struct Prepared {
   std::vector<dynamics::RigidBody> bodies;
   std::vector<dynamics::frequency::PotentialGroup> groups;
@@ -72,6 +84,7 @@ struct Prepared {
   std::vector<dynamics::Joint> joints;
   std::vector<dynamics::Friction> friction;
   std::vector<dynamics::Contact> contacts;
+  std::vector<PreparedSection> sections;
   std::vector<OtherDepth> other_depths;  ///< of coefficients that are not for the scene's
   std::vector<std::string> notes;        ///< what had to be decided, for the result and the plan
 };

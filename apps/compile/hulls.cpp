@@ -11,6 +11,7 @@
 
 #include "compile/archive.hpp"
 #include "compile/computed.hpp"
+#include "compile/kept.hpp"
 #include "compile/kept_coefficients.hpp"
 #include "compile/kept_files.hpp"
 #include "fit_sources.hpp"
@@ -77,6 +78,14 @@ void require_same_panels(const HullMesh& first, const HullMesh& other, const hyd
 /// By name, or what the scene asks of its answers: they are no better than the coefficients.
 double tolerance_of(const HullMesh& mesh, const Scene& scene) { return mesh.tolerance.value_or(scene.accuracy); }
 
+/// \throws InputError at a section that does not cut the hull
+void add_sections(const scene::Body& body, const Eigen::Vector3d& at, hp::HullBody& out) {
+  for (const scene::Section& section : body.sections) {
+    out.sections.push_back({section.name, at + section.at, section.normal});
+    scene::placed(section.place, [&] { hp::check_section(out, out.sections.back()); });
+  }
+}
+
 HullRequest hull_request(const Scene& scene, const std::vector<int>& bodies) {
   const scene::Hydrodynamics& first = hydrodynamics_of(scene, bodies.front());
   HullRequest r{{}, first.mesh->omega, first.mesh->headings, {}, middle_of(scene, bodies), first.file.place};
@@ -89,6 +98,7 @@ HullRequest hull_request(const Scene& scene, const std::vector<int>& bodies) {
     r.bodies.push_back(scene::placed(h.file.place, [&] {
       return hp::HullBody{body.name, at, at + body.centre_of_gravity, meshes.at(*h.mesh, at)};
     }));
+    add_sections(body, at, r.bodies.back());
   }
   if (r.headings.empty()) r.headings = headings_asked(scene);
   r.options.tolerance = tolerance_of(*first.mesh, scene);
@@ -120,6 +130,11 @@ std::string key_of_hulls(const HullRequest& r, const hydro::Water& water) {
     to.list(body.hull.triangles(), [](ArchiveWriter& corners, const std::array<int, 3>& triangle) {
       for (const int corner : triangle) corners(corner);
     });
+    to.list(body.sections, [](ArchiveWriter& of, const hp::HullSection& section) {
+      of(section.name);
+      of(section.at);
+      of(section.normal);
+    });
   });
   return std::move(out.bytes);
 }
@@ -129,12 +144,17 @@ Coefficients in_place(Coefficients c, const HullRequest& r) {
   return hydro::potential::translated(std::move(c), r.from_origin);
 }
 
+std::string key_of_parts(const std::string& key) { return key + "parts"; }
+
 hp::Solution solved_and_kept(const HullRequest& r, const hydro::Water& water) {
   hp::Options options = r.options;
   options.progress = watcher_of_hulls();
   hp::Solution s = scene::placed(r.place, [&] { return hp::solve(r.bodies, water, r.omega, r.headings, options); });
-  keep_coefficients(key_of_hulls(r, water), s.coefficients);
+  const std::string key = key_of_hulls(r, water);
+  keep_coefficients(key, s.coefficients);
+  if (s.parts) keep_coefficients(key_of_parts(key), *s.parts);
   s.coefficients = in_place(std::move(s.coefficients), r);
+  if (s.parts) s.parts = in_place(*std::move(s.parts), r);
   return s;
 }
 
@@ -183,6 +203,46 @@ Coefficients coefficients_of_hulls(const Scene& scene, const std::vector<int>& b
   return kept ? in_place(std::move(*kept), r) : solved_and_kept(r, scene.water).coefficients;
 }
 
+namespace {
+
+/// Of whole hulls, and of their parts.
+struct WholeAndParts {
+  Coefficients whole, parts;
+};
+
+WholeAndParts whole_and_parts(const Scene& scene, const std::vector<int>& bodies) {
+  const HullRequest r = hull_request(scene, bodies);
+  const std::string key = key_of_hulls(r, scene.water);
+  auto whole = kept_coefficients(key, scene.water), parts = kept_coefficients(key_of_parts(key), scene.water);
+  if (whole && parts) return {in_place(std::move(*whole), r), in_place(std::move(*parts), r)};
+  hp::Solution s = solved_and_kept(r, scene.water);
+  return {std::move(s.coefficients), *std::move(s.parts)};
+}
+
+std::string name_of_parts(const std::string& name) { return name + " | parts"; }
+
+}  // namespace
+
+const Coefficients& parts_of_hulls(const Scene& scene, Kept& kept) {
+  const std::vector<int> bodies = bodies_of_meshes(scene);
+  return kept.coefficients(name_of_parts(what_hulls_are_solved(scene, bodies)),
+                           [&] { return whole_and_parts(scene, bodies).parts; });
+}
+
+const Coefficients& kept_coefficients_of_hulls(const Scene& scene, Kept& kept) {
+  const std::vector<int> bodies = bodies_of_meshes(scene);
+  const std::string name = what_hulls_are_solved(scene, bodies);
+  std::optional<Coefficients> whole;
+  if (std::any_of(bodies.begin(), bodies.end(),
+                  [&](int b) { return !scene.bodies[static_cast<std::size_t>(b)].sections.empty(); }))
+    kept.coefficients(name_of_parts(name), [&] {
+      WholeAndParts both = whole_and_parts(scene, bodies);
+      whole = std::move(both.whole);
+      return std::move(both.parts);
+    });
+  return kept.coefficients(name, [&] { return whole ? *std::move(whole) : coefficients_of_hulls(scene, bodies); });
+}
+
 std::string what_hulls_are_solved(const Scene& scene, const std::vector<int>& bodies) {
   const HullMesh& table = *hydrodynamics_of(scene, bodies.front()).mesh;
   std::string out = fmt::format(
@@ -194,6 +254,8 @@ std::string what_hulls_are_solved(const Scene& scene, const std::vector<int>& bo
     const HullMesh& mesh = *body.hydrodynamics->mesh;
     out += fmt::format(" | {} {} {} {} {} {}", body.name, fmt::join(body.position, " "),
                        fmt::join(body.centre_of_gravity, " "), mesh.file.string(), mesh.unit.value_or(0), mesh.reverse);
+    for (const scene::Section& s : body.sections)
+      out += fmt::format(" | section {} {} {}", s.name, fmt::join(s.at, " "), fmt::join(s.normal, " "));
   }
   return out;
 }

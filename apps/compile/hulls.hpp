@@ -12,6 +12,8 @@
 
 namespace froude::compile {
 
+class Kept;
+
 /// Bodies of the scene that say `mesh`, in its order.
 std::vector<int> bodies_of_meshes(const scene::Scene& scene);
 
@@ -31,6 +33,12 @@ hydro::potential::WaveField field_of_hulls(const scene::Scene& scene, const std:
 
 /// The coefficients of solve_hulls(): those that an earlier process kept where it did, which a note then says.
 hydro::potential::Coefficients coefficients_of_hulls(const scene::Scene& scene, const std::vector<int>& bodies);
+
+/// Loads on the parts that sections cut off, hydro::panels::Solution::parts, of all bodies of meshes; kept by this
+/// process beside the coefficients, which are solved with them once.
+const hydro::potential::Coefficients& parts_of_hulls(const scene::Scene& scene, Kept& kept);
+/// coefficients_of_hulls() of all bodies of meshes, likewise.
+const hydro::potential::Coefficients& kept_coefficients_of_hulls(const scene::Scene& scene, Kept& kept);
 
 /// All that they depend on but what the files of meshes hold, as one text.
 std::string what_hulls_are_solved(const scene::Scene& scene, const std::vector<int>& bodies);

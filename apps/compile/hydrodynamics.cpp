@@ -61,7 +61,7 @@ std::string name_of_data(const Scene& scene, const Hydrodynamics& h) {
 const Coefficients& read(const Scene& scene, const Hydrodynamics& h, const std::string& name, Kept& kept) {
   if (h.cylinders)
     return kept.coefficients(name, [&] { return coefficients_of_cylinders(scene, bodies_of_cylinders(scene)); });
-  if (h.mesh) return kept.coefficients(name, [&] { return coefficients_of_hulls(scene, bodies_of_meshes(scene)); });
+  if (h.mesh) return kept_coefficients_of_hulls(scene, kept);
   hydro::potential::ReadOptions options;
   options.density = scene.water.density;
   options.gravity = scene.water.gravity;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "compile/connections.hpp"
+#include "compile/sections.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/waves/kinematics/sea.hpp"
 
@@ -240,6 +241,7 @@ std::vector<Signal> signal_list(const scene::Scene& scene, const Prepared& prepa
   add_water(scene, nullptr, out);
   add_energies(model, out);
   add_line_signals(lines_as_placed(scene), out);
+  add_section_signals(scene, prepared, out);
   for (Signal& s : out) s.value = {};
   return out;
 }

@@ -158,6 +158,63 @@ Eigen::Matrix3d read_inertia(const Record& record, double mass, bool needed) {
   return inertia;
 }
 
+/// Along its direction, of unit length.
+void read_normal(const Value& value, Section& out) {
+  const Eigen::Vector3d& given = value.points.front().front();
+  out.normal = given.norm() > 0 ? Eigen::Vector3d(given.normalized()) : given;
+}
+
+Binding<Section> section() {
+  return Binding<Section>(
+             "[[body.section]]",
+             "a plane that cuts the body, at which responses tell six loads: what the rest of the body exerts on the "
+             "part that is described here, along body axes")
+      .key(name_key("", "of the section; its signals are called BODY.SECTION.force_x to moment_z"), &Section::name)
+      .key(vector("at", dim::length, "a point of the plane, from the body's origin, body axes; moments are about it"),
+           &Section::at)
+      .key(vector("normal", dim::none, "of the plane, into the part that is described, body axes, of any length")
+               .or_default("(1, 0, 0)", "sections are mostly across the length, and tell loads on what is ahead"),
+           read_normal)
+      .key(quantity("mass", dim::mass, "of that part").positive(), &Section::mass)
+      .key(vector("centre_of_gravity", dim::length, "of that part, from the body's origin, body axes"),
+           &Section::centre_of_gravity)
+      .key(
+          vector("radii_of_gyration", dim::length,
+                 "of that part about its centre of gravity along body axes: I = mass · radius²; no products of inertia")
+              .positive()
+              .optional())
+      .key(vector("inertia", dim::inertia, "of that part, (Ixx, Iyy, Izz) about its centre of gravity, body axes")
+               .positive()
+               .optional())
+      .key(vector("products_of_inertia", dim::inertia,
+                  "of that part, (∫xy dm, ∫xz dm, ∫yz dm) from its centre of gravity")
+               .or_default("(0, 0, 0) kg m^2", "body axes are mostly principal axes")
+               .only_beside("inertia"))
+      .exactly_one_of({"radii_of_gyration", "inertia"})
+      .place(&Section::place)
+      .then([](const Record& record, Section& out) {
+        if (out.normal.norm() == 0)
+          throw record.wrong("normal", "has no length", "give a direction, such as (1, 0, 0)");
+        out.inertia = read_inertia(record, out.mass, true);
+      });
+}
+
+/// Sections take pressures, which only a mesh has, and weigh no more than the whole.
+void require_sections_of_mesh(const Record& record, const Body& body) {
+  const std::vector<Record>& tables = record.tables("section");
+  for (std::size_t i = 0; i < tables.size(); ++i) {
+    if (!body.hydrodynamics || !body.hydrodynamics->mesh)
+      throw tables[i].refused("needs the pressure on the hull, and only [body.hydrodynamics] with a mesh tells it",
+                              "name the hull there, mesh = \"hull.stl\", in place of a file of coefficients");
+    if (body.sections[i].mass > body.mass * (1 + 1e-9))  // rounding of a sum
+      throw tables[i].wrong("mass", fmt::format("is more than that of the body, {:.6g} kg", body.mass),
+                            "give the mass of the part into which `normal` points");
+    for (std::size_t j = 0; j < i; ++j)
+      if (body.sections[j].name == body.sections[i].name)
+        throw tables[i].wrong("name", "is that of an earlier section of this body", "give each its own");
+  }
+}
+
 /// Linear hydrostatics hold buoyancy and weight already.
 void require_nothing_twice(const Record& record, const Body& body) {
   if (!body.hydrodynamics || !body.hydrodynamics->hydrostatics) return;
@@ -266,11 +323,14 @@ const Binding<Body>& body() {
           .table("buoyancy", buoyancy(), &Body::buoyancy)
           .table("hydrodynamics", hydrodynamics_binding(), &Body::hydrodynamics)
           .table("second_order", second_order_binding(), &Body::second_order)
+          .tables("section", section(), &Body::sections)
+          .optional()
           .at_most_one_of({"radii_of_gyration", "inertia"})
           .then(require_what_rotation_needs)
           .then(require_free_modes)
           .then(require_nothing_twice)
           .then(share_mesh)
+          .then(require_sections_of_mesh)
           .then([](const Record& record, const Body& body) {
             if (body.hydrodynamics && body.hydrodynamics->cylinders)
               require_at_still_water(record.table("hydrodynamics").table("cylinders"), body.position.z());

@@ -250,6 +250,17 @@ struct Buoyancy {
   Place place;
 };
 
+/// `[[body.section]]`: a plane that cuts the body, and the mass on one side of it.
+struct Section {
+  std::string name;                                   ///< of its signals, after that of the body
+  Eigen::Vector3d at;                                 ///< on the plane, what moments are about; body axes, m
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitX();  ///< into the part that is described, body axes, of unit length
+  double mass;                                        ///< of that part, kg, >= 0
+  Eigen::Vector3d centre_of_gravity;                  ///< of that part, from the body's origin, body axes, m
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  ///< of that part about its centre of gravity, kg m²
+  Place place;
+};
+
 struct Body {
   std::string name;          ///< unique; copies are m1, m2, …
   std::string family;        ///< the name as written; equal to `name` for a single body
@@ -268,6 +279,7 @@ struct Body {
   std::optional<Buoyancy> buoyancy;
   std::optional<Hydrodynamics> hydrodynamics;
   std::optional<SecondOrder> second_order;
+  std::vector<Section> sections;
   Place place;
 };
 

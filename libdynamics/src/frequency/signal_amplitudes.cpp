@@ -40,6 +40,17 @@ void SignalAmplitudes::add_motion(const Variation::Part& part, int mode, std::ve
     }
 }
 
+void SignalAmplitudes::add_radiation(const Variation::Radiated& part, std::vector<std::complex<double>>& out) const {
+  for (std::size_t w = 0; w < omega_.size(); ++w) {
+    const Eigen::RowVectorXcd row = part.row(omega_[w]);
+    for (std::size_t cell = w; cell < out.size(); cell += omega_.size())
+      for (std::size_t b = 0; b < part.bodies.size(); ++b)
+        for (int mode = 0; mode < 6; ++mode)
+          out[cell] += row[6 * static_cast<Eigen::Index>(b) + mode] *
+                       xi_(static_cast<Eigen::Index>(cell), 6 * part.bodies[b] + mode);
+  }
+}
+
 // (Q7)
 std::vector<std::complex<double>> SignalAmplitudes::of(const Variation& variation) const {
   std::vector<std::complex<double>> out;
@@ -55,6 +66,7 @@ std::vector<std::complex<double>> SignalAmplitudes::of(const Variation& variatio
   const auto cells = static_cast<Eigen::Index>(out.size());
   for (const auto& [row, factor] : variation.by_multiplier)
     Eigen::Map<Eigen::VectorXcd>(out.data(), cells) += factor * lambda_.col(row);
+  if (variation.by_radiation) add_radiation(*variation.by_radiation, out);
   return out;
 }
 

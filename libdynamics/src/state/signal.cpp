@@ -45,6 +45,11 @@ std::complex<double> amplitude(const Variation& variation, const Eigen::Ref<cons
       out += std::complex<double>(in_phase * x.real() - ahead * x.imag(), in_phase * x.imag() + ahead * x.real());
     }
   for (const auto& [row, factor] : variation.by_multiplier) out += factor * lambda[row];
+  if (!variation.by_radiation) return out;
+  const Eigen::RowVectorXcd row = variation.by_radiation->row(omega);
+  for (std::size_t b = 0; b < variation.by_radiation->bodies.size(); ++b)
+    for (int mode = 0; mode < 6; ++mode)
+      out += row[6 * static_cast<Eigen::Index>(b) + mode] * xi[6 * variation.by_radiation->bodies[b] + mode];
   return out;
 }
 

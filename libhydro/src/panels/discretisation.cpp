@@ -1,10 +1,12 @@
 #include "discretisation.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "controlled.hpp"
 #include "extrapolate.hpp"
 #include "hull_array.hpp"
+#include "parts.hpp"
 #include "refine.hpp"
 #include "request.hpp"
 #include "surface.hpp"
@@ -21,10 +23,16 @@ class AnswersOfModel : public Solver {
   Extrapolated solved(double omega, const std::vector<double>& heading) const override {
     if (omega == 0 || std::isinf(omega)) return {model_.added_mass_limit(omega)};
     const OneFrequency a = model_.at(omega, heading);
-    return {a.A, a.B, a.B_far, a.X, a.X_far};
+    if (a.A_parts.size() == 0) return {a.A, a.B, a.B_far, a.X, a.X_far};
+    return {a.A, a.B, a.B_far, a.X, a.X_far, a.A_parts, a.B_parts, a.X_parts};
   }
   OneFrequency answer(double, const std::vector<double>&, const Extrapolated& from) const override {
-    return {from[0].real(), from[1].real(), from[2].real(), from[3], from[4]};
+    OneFrequency out{from[0].real(), from[1].real(), from[2].real(), from[3], from[4]};
+    if (from.size() == 5) return out;
+    out.A_parts = from[5].real();
+    out.B_parts = from[6].real();
+    out.X_parts = from[7];
+    return out;
   }
   Eigen::MatrixXd added_mass(double, const Extrapolated& from) const override { return from[0].real(); }
   std::vector<Extrapolated> scales(const std::vector<const Extrapolated*>& solved) const override {
@@ -118,9 +126,11 @@ std::unique_ptr<const Discretisation> discretised(const std::vector<HullBody>& b
   constexpr double worth = 2, noticed = 5;  // times; s
   constexpr int far_too_many = 20000;       // panels
   require(!bodies.empty(), "there is no body");
+  require_parts_can_be_told(bodies, water, options);
+  const bool parts = std::any_of(bodies.begin(), bodies.end(), [](const HullBody& b) { return !b.sections.empty(); });
   if (options.interaction == Interaction::partial_waves) return apart(bodies, water, omega, options);
   const bool are_apart = bodies.size() == 1 || !too_near(places_of(bodies));
-  if (options.interaction == Interaction::panels || bodies.size() == 1 || !are_apart)
+  if (parts || options.interaction == Interaction::panels || bodies.size() == 1 || !are_apart)
     return together(bodies, water, options, are_apart);
   auto each = apart(bodies, water, omega, options);
   const Cost of_each = cost_as_asked(*each, omega, headings, options);

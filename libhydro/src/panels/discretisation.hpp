@@ -12,6 +12,9 @@ struct OneFrequency {
   Eigen::MatrixXd A, B, B_far;
   Eigen::MatrixXcd X, X_far;
   int partial_waves = 0;  ///< a hull; 0: all panels together
+  /// Loads on the parts that sections cut off, (6S, 6N) and (6S, headings); empty without sections.
+  Eigen::MatrixXd A_parts = {}, B_parts = {};
+  Eigen::MatrixXcd X_parts = {};
 };
 
 /// What is extrapolated to panels of no size, entry by entry: the answers, or what kinds of hulls do to waves.

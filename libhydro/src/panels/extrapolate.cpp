@@ -34,8 +34,15 @@ Matrix richardson(const std::vector<const Matrix*>& v) {
 }  // namespace
 
 OneFrequency sum(const OneFrequency& a, double s, const OneFrequency& b) {
-  return {a.A + s * b.A, a.B + s * b.B,         a.B_far + s * b.B_far,
-          a.X + s * b.X, a.X_far + s * b.X_far, std::max(a.partial_waves, b.partial_waves)};
+  return {a.A + s * b.A,
+          a.B + s * b.B,
+          a.B_far + s * b.B_far,
+          a.X + s * b.X,
+          a.X_far + s * b.X_far,
+          std::max(a.partial_waves, b.partial_waves),
+          a.A_parts + s * b.A_parts,
+          a.B_parts + s * b.B_parts,
+          a.X_parts + s * b.X_parts};
 }
 
 Extrapolated sum(const Extrapolated& a, double s, const Extrapolated& b) {
@@ -77,7 +84,9 @@ std::vector<Extrapolated> scales_of_waves(const std::vector<const Extrapolated*>
     out.emplace_back();
     for (const Eigen::MatrixXcd& M : *one) out.back().push_back(Eigen::MatrixXcd::Ones(M.rows(), M.cols()));
   }
+  constexpr std::size_t added_mass_of_parts = 5;  // as that of the whole, it does not vanish
   for (std::size_t m = 1; m < solved.front()->size(); ++m) {
+    if (m == added_mass_of_parts) continue;
     VectorXd largest = sizes_of(*solved.front(), m);
     for (const Extrapolated* one : solved) largest = largest.cwiseMax(sizes_of(*one, m));
     VectorXd so_far = least_of_largest * largest;

@@ -18,8 +18,8 @@ Eigen::MatrixXd step_to_the_limit(const std::vector<Eigen::MatrixXd>& coarse_to_
 /// The error that is left, as a share of the step.
 double doubtful_share(std::size_t meshes);
 
-/// Of A, B, B_far, X, X_far at rising frequencies: what damping and excitation have been at most so far, √(B_ii B_jj)
-/// and the row of X; for A ones. (G17)
+/// Of A, B, B_far, X, X_far, and perhaps A, B and X of parts, at rising frequencies: what damping and excitation have
+/// been at most so far, √(B_ii B_jj) and the row of X; for A ones. (G17)
 std::vector<Extrapolated> scales_of_waves(const std::vector<const Extrapolated*>& solved);
 
 /// Weights of values at `nodes` (rising) in the cubic through the four nearest to x, or all if they are fewer; the node

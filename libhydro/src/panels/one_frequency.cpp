@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "hydro/waves/dispersion.hpp"
+#include "parts.hpp"
 
 namespace hydro::panels {
 namespace {
@@ -35,6 +36,7 @@ Model::Model(PanelMesh mesh, const std::vector<HullBody>& bodies, const Water& w
     : mesh_(std::move(mesh)),
       water_(water),
       all_(all_panels(mesh_, bodies)),
+      load_rows_(load_rows_of_parts(mesh_, bodies)),
       parts_(rankine_parts(mesh_, all_, water.depth)) {
   reach_ = reach_of(all_, mesh_);
   for (const HullBody& body : bodies) reference_point_.push_back(body.reference_point);
@@ -144,6 +146,11 @@ OneFrequency Model::at(double omega, const std::vector<double>& heading) const {
   out.X = i_unit * omega * water_.density * loads(phi.wave);
   out.X_far = haskind(omega, k, phi.motion, all_.normal, heading);
   out.B_far = damping_far(omega, k, phi.motion);
+  if (load_rows_.rows() == 0) return out;
+  const MatrixXcd on_parts = load_rows_.cast<Complex>() * phi.motion;
+  out.A_parts = -water_.density * on_parts.real();
+  out.B_parts = omega * water_.density * on_parts.imag();
+  out.X_parts = i_unit * omega * water_.density * (load_rows_.cast<Complex>() * phi.wave);
   return out;
 }
 

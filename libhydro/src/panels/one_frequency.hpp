@@ -47,6 +47,7 @@ class Model {
   Water water_;
   std::vector<Eigen::Vector3d> reference_point_;
   AllPanels all_;
+  Eigen::MatrixXd load_rows_;  // of parts of hulls
   RankineParts parts_;
   double reach_ = 0;
 };

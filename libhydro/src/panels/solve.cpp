@@ -13,6 +13,7 @@
 #include "hydro/base/parallel.hpp"
 #include "hydro/hydrostatics/immersion.hpp"
 #include "panel_mesh.hpp"
+#include "parts.hpp"
 #include "potential/modes.hpp"
 #include "potential/operations/where_needed.hpp"
 #include "potential/solver_request.hpp"
@@ -251,6 +252,8 @@ Solution solve(const std::vector<HullBody>& bodies, const Water& water, const st
   if (!controlled) require_credible(s.check);
   c.source = fmt::format("panels: {} on {} {}", s.check.panels, bodies.size(), bodies.size() == 1 ? "hull" : "hulls");
   s.check.passivity = fill(w, chosen.omega, heading, c);
+  if (std::any_of(bodies.begin(), bodies.end(), [](const HullBody& body) { return !body.sections.empty(); }))
+    s.parts = loads_on_parts(panel_mesh(bodies, water.depth, false), bodies, w.results, c);
   add_notes(s.check, c);
   if (!std::isnan(s.check.estimate)) note_flat_faces(bodies, c);
   if (options.frequency_tolerance) {

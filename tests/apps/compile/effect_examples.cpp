@@ -348,6 +348,15 @@ const std::vector<Example>& examples() {
   return all;
 }
 
+Example of_responses_alone() {
+  return body(
+      "sections", "",
+      "[body.hydrodynamics]\nmesh = \"inside_out.obj\"\nreverse = true\nfrequencies = \"0.8 rad/s .. 1.4 rad/s, "
+      "3 values\"\nhydrostatics = true\n[[body.section]]\nname = \"mid\"\nat = \"(0, 0, 0) m\"\nmass = \"4544 "
+      "kg\"\ncentre_of_gravity = \"(1, 0, 1.31) m\"\nradii_of_gyration = \"(1, 1, 1) m\"\n",
+      {});
+}
+
 std::vector<Example> held_by_laws() {
   const std::string slider = R"([[joint]]
 between = ["ground", "m"]

@@ -17,6 +17,8 @@ struct Example {
 /// A scene that names no effect: a body alone.
 Example without_effects();
 const std::vector<Example>& examples();
+/// What responses tell and runs do not.
+Example of_responses_alone();
 /// What examples do not show of friction and contacts, which begin there at rest and apart: a module that slips on a
 /// slider, that stands on a plane, that slips on it; and many modules, one of which friction holds.
 std::vector<Example> held_by_laws();

@@ -74,6 +74,7 @@ TEST(Effects, OfTheGrammarAllHaveAnExample) {
   add_paths(scene::motion_schema(), grammar);
   for (const Example& example : effects::examples())
     add_named(scene::parse_document(example.text, example.name), scene::motion_schema(), shown);
+  add_named(scene::parse_document(effects::of_responses_alone().text, "responses"), scene::motion_schema(), shown);
   Paths missing;
   std::set_difference(grammar.begin(), grammar.end(), shown.begin(), shown.end(),
                       std::inserter(missing, missing.end()));

@@ -21,6 +21,7 @@ class SignalAmplitudes {
   std::vector<std::complex<double>> of(const Variation& variation) const;
 
  private:
+  void add_radiation(const Variation::Radiated& part, std::vector<std::complex<double>>& out) const;
   void add_motion(const Variation::Part& part, int mode, std::vector<std::complex<double>>& out) const;
 
   std::vector<double> omega_, headings_;

@@ -31,7 +31,8 @@ struct Reading {
 };
 
 /// How a signal varies with small motions about a still state: rows by the displacement (translation and small global
-/// rotation), velocity and acceleration of the centres of gravity of single bodies; by multipliers of joints; by waves.
+/// rotation), velocity and acceleration of the centres of gravity of single bodies; by multipliers of joints; by waves,
+/// those that come in and those that motions make.
 struct Variation {
   using Row = Eigen::Matrix<double, 1, 6>;
   struct Part {
@@ -42,6 +43,12 @@ struct Variation {
   std::vector<std::pair<Eigen::Index, double>> by_multiplier = {};
   /// Per metre of a wave η = Re(e^{iωt}) at the origin that goes along `heading`, rad; empty: none.
   std::function<std::complex<double>(double omega, double heading)> by_wave = {};
+  /// A row by displacements that depends on the frequency, as loads of radiated waves do; empty: none.
+  struct Radiated {
+    std::vector<int> bodies;                               ///< six entries of the row each, in this order
+    std::function<Eigen::RowVectorXcd(double omega)> row;  ///< per m and rad of Re(ξ e^{iωt})
+  };
+  std::optional<Radiated> by_radiation = {};
 };
 
 /// A state without velocities, and the multipliers of the joints that carry what the loads ask of them there; both must

@@ -16,12 +16,20 @@
 
 namespace hydro::panels {
 
+/// A plane that cuts a hull in two parts, of which the loads on one are told: that into which the normal points.
+struct HullSection {
+  std::string name;
+  Eigen::Vector3d at;      ///< a point of the plane, global, m
+  Eigen::Vector3d normal;  ///< of unit length
+};
+
 /// A rigid body, its hull as it floats: z = 0 is the still water. It may be wholly under water.
 struct HullBody {
   std::string name;
   Eigen::Vector3d reference_point;                   ///< of motions and moments, global, m
   std::optional<Eigen::Vector3d> centre_of_gravity;  ///< global, m; without it there is no restoring matrix
   hydrostatics::Hull hull;
+  std::vector<HullSection> sections = {};  ///< where loads on a part of it are asked for
 };
 
 /// How hulls feel each other.
@@ -82,6 +90,10 @@ struct SelfCheck {
 struct Solution {
   potential::Coefficients coefficients;
   SelfCheck check;
+  /// Loads on the parts of hulls that sections cut off, (G24): the bodies again, then one more a section, whose rows of
+  /// A, B, C and X are loads on the part by motions of the bodies, about the body's reference point; all other entries
+  /// are zero. C: the hydrostatic pressure alone, along axes that turn with the body (G25). Empty without sections.
+  std::optional<potential::Coefficients> parts = {};
 };
 
 /// What a solution will need, told before it is computed; with a tolerance, its first two meshes.
@@ -103,7 +115,8 @@ struct Cost {
 /// another, an opening under water; if a frequency is not finite and positive or the lists do not increase; more memory
 /// than the machine has; without a tolerance, panels longer than a fifth of the shortest wave where waves reach them,
 /// and energy, haskind or reciprocity of SelfCheck above 0.3; fewer than five frequencies where more are to be chosen,
-/// or 300 that do not do; a tolerance that cannot be met with three meshes of at most 4000 unknowns a system
+/// or 300 that do not do; with sections: as check_section(), a body on the sea bed, partial waves asked for,
+/// frequencies to be chosen; a tolerance that cannot be met with three meshes of at most 4000 unknowns a system
 Solution solve(const std::vector<HullBody>& bodies, const Water& water, const std::vector<double>& omega,
                const std::vector<double>& heading, const Options& options = {});
 
@@ -111,6 +124,9 @@ Solution solve(const std::vector<HullBody>& bodies, const Water& water, const st
 /// two modes in `reference` (P11), but against a tenth of the largest mode of the kind at least. `length` is
 /// SelfCheck::length. \throws InputError if frequencies or headings differ
 double difference(const potential::Coefficients& c, const potential::Coefficients& reference, double length);
+
+/// \throws InputError unless the plane cuts or touches the hull, and its normal is of unit length
+void check_section(const HullBody& body, const HullSection& section);
 
 /// \throws InputError as solve()
 Cost cost(const std::vector<HullBody>& bodies, const Water& water, const std::vector<double>& omega,
