@@ -23,15 +23,23 @@ std::string ending_of(const Path& path) { return lower_case(path.extension().str
 
 bool is_table(const std::string& ending) { return ending == ".csv" || ending == ".txt" || ending == ".dat"; }
 
+/// "time" or "t", in capitals or not; of several the first that is a time, since T may be a temperature. "" for none.
+std::string time_column(const hydro::io::CsvTable& table) {
+  std::string out;
+  for (const std::string& name : table.names()) {
+    const std::string lower = lower_case(name);
+    if (lower != "time" && lower != "t") continue;
+    if (table.has_known_unit(name) && hydro::compatible(table.dimension(name), hydro::dim::time)) return name;
+    if (out.empty()) out = name;
+  }
+  return out;
+}
+
 /// The columns of numbers whose units are known; others are told only if they are asked for.
 RunResult read_csv(const Path& path) {
   const auto table = hydro::io::CsvTable::read(path);
   RunResult record;
-  std::string time;
-  for (const std::string& name : table.names()) {
-    const std::string lower = lower_case(name);
-    if (lower == "time" || lower == "t") time = name;
-  }
+  const std::string time = time_column(table);
   if (time.empty())
     throw hydro::InputError("the table has no column \"time\" or \"t\"", {.file = path.string()},
                             fmt::format("its columns are: {}", fmt::join(table.names(), ", ")));
