@@ -137,16 +137,26 @@ void take_names(const std::vector<TableLine>& lines, std::size_t first_row, std:
 
 /// \throws hydro::InputError for text, and for a number that may be another one than it seems
 double place_in(const TableCell& cell, const std::string& column, const TableLine& line, NumberNotation& notation,
-                const Place& place) {
+                const std::string& file) {
+  const auto place = [&] {
+    return Place{file, line.number, cell.column, std::string(line.text), static_cast<int>(cell.text.size())};
+  };
   const auto value = number_in(cell, notation);
   if (!value && hydro::io::has_thousands_marks(cell.text))
-    throw hydro::io::thousands_marks_refused(cell.text, column).at(place);
+    throw hydro::io::thousands_marks_refused(cell.text, column).at(place());
   if (!value)
-    throw InputError(fmt::format("\"{}\" is no number", cell.text), place,
+    throw InputError(fmt::format("\"{}\" is no number", cell.text), place(),
                      "leave the cell of a marker that was not seen empty; a second track needs a file of its own");
   if (!std::isnan(*value))
-    if (const auto wrong = notation.objection(cell, column, line.number)) throw wrong->at(place);
+    if (const auto wrong = notation.objection(cell, column, line.number)) throw wrong->at(place());
   return *value;
+}
+
+/// How many cells there are up to the last that holds something.
+std::size_t filled(const std::vector<TableCell>& cells) {
+  std::size_t n = cells.size();
+  while (n > 0 && cells[n - 1].text.empty()) --n;
+  return n;
 }
 
 void take_rows(const std::vector<TableLine>& lines, std::size_t first, char separator, NumberNotation& notation,
@@ -154,15 +164,12 @@ void take_rows(const std::vector<TableLine>& lines, std::size_t first, char sepa
   const std::size_t count = out.columns.size();
   for (std::size_t i = first; i < lines.size(); ++i) {
     const auto cells = hydro::io::table_cells(lines[i], separator, out.file);
-    if (cells.size() != count)
+    if (cells.size() < count || filled(cells) > count)
       throw InputError(fmt::format("the row has {} cells, {} columns are named", cells.size(), count),
                        {out.file, lines[i].number, 0, std::string(lines[i].text), 0},
                        "leave the cell of a marker that was not seen empty");
-    for (std::size_t c = 0; c < count; ++c) {
-      const Place place{out.file, lines[i].number, cells[c].column, std::string(lines[i].text),
-                        static_cast<int>(cells[c].text.size())};
-      out.columns[c].push_back(place_in(cells[c], out.names[c], lines[i], notation, place));
-    }
+    for (std::size_t c = 0; c < count; ++c)
+      out.columns[c].push_back(place_in(cells[c], out.names[c], lines[i], notation, out.file));
     out.line_of_row.push_back(lines[i].number);
   }
 }
@@ -179,7 +186,14 @@ RawTrack raw_track(std::string_view text, const std::string& file_name, const Tr
   while (first < lines.size() && !is_row(cells(first), notation)) ++first;
   if (first == lines.size())
     throw InputError("the track has no row of numbers", {.file = file_name}, "write rows of time and places");
-  const std::size_t count = cells(first).size();
+  std::size_t count = cells(first).size();
+  const auto has_names = [&] {
+    for (std::size_t i = 0; i < first; ++i)
+      if (cells(i).size() == count) return true;
+    return asked.names.size() == count;
+  };
+  // A separator at the end of each row, and none after the names.
+  while (count > 1 && !has_names() && cells(first)[count - 1].text.empty()) --count;
   take_names(lines, first, count, separator, asked, out);
   out.columns.resize(count);
   take_rows(lines, first, separator, notation, out);

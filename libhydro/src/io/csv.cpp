@@ -111,6 +111,7 @@ class HeaderSearch {
 
 /// What separates cells in the last line as in the first one, where that is no title.
 char separator_of(const std::vector<TableLine>& lines) {
+  if (lines.empty()) return ',';
   const char first = separator_in(lines.front().text), last = separator_in(lines.back().text);
   if (first != '\0' && (last == '\0' || lines.back().text.find(first) != std::string_view::npos)) return first;
   return last == '\0' ? ',' : last;
@@ -284,7 +285,9 @@ const std::vector<double>& CsvTable::values(std::string_view name) const {
   const Column& c = find(name);
   if (c.is_text && has_thousands_marks(c.texts.front()))
     throw thousands_marks_refused(c.texts.front(), name).at(place_of(name, 0));
-  if (c.is_text) throw InputError(fmt::format("column \"{}\" holds text; numbers are needed", name), place_of(name, 0));
+  if (c.is_text)
+    throw InputError(fmt::format("column \"{}\" holds text; numbers are needed", name), place_of(name, 0),
+                     columns_.size() == 1 ? "separate columns by commas, semicolons or tabs, not by blanks" : "");
   return c.values;
 }
 

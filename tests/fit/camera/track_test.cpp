@@ -72,6 +72,13 @@ TEST(TrackFile, ReadsUnitsInALineOfTheirOwnAndQuotes) {
   EXPECT_DOUBLE_EQ(t.time.at(0), 0.04);
 }
 
+TEST(TrackFile, TakesASeparatorAtTheEndOfEachRowForNoColumn) {
+  const TrackColumns asked{.time = "t"};
+  EXPECT_EQ(parse_track("t [s];b_x [px];b_y [px]\n0;1;2;\n1;;;\n", "t.csv", asked).time.size(), 2u);
+  EXPECT_THAT(refused([&] { parse_track("t [s];b_x [px];b_y [px]\n0;1;2;\n1;1;2;3\n", "t.csv", asked); }),
+              HasSubstr("the row has 4 cells"));
+}
+
 TEST(TrackFile, AsksOnceForAllUnits) {
   EXPECT_THAT(refused([] { parse_track("t,x,y\n0,1,2\n1,2,3\n", "plain.csv", {.time = "t"}); }),
               AllOf(HasSubstr("in which units are the columns t, x, y?"),

@@ -138,6 +138,11 @@ TEST(CsvTable, PassesTitlesAndReadsARowOfUnits) {
   EXPECT_THAT(CsvTable::parse("name,note\nA,x\nB,3\n", "a.csv").text_column("note"), ElementsAre("x", "3"));
 }
 
+TEST(CsvTable, SaysThatBlanksDoNotSeparateColumns) {
+  EXPECT_THAT([] { CsvTable::parse("t[s] x[m]\n0 1\n", "a.csv").column("t"); },
+              ThrowsMessage<InputError>(AllOf(HasSubstr("holds text"), HasSubstr("not by blanks"))));
+}
+
 TEST(CsvTable, TakesEmptyCellsAtTheEndOfEachLineForNoColumn) {
   for (const char* text :
        {"t [s],x [m],\n0,1,\n1,2,\n", "t [s],x [m]\n0,1,\n1,2,\n", "t [s],x [m],,\n0,1,,\n,,,\n1,2,,\n,,,\n"}) {
