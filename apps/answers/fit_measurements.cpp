@@ -24,7 +24,7 @@ std::vector<std::pair<std::string, std::string>> labels_of(const hydro::io::CsvT
   for (const std::string& name : table.names())
     if (std::find(taken.begin(), taken.end(), name) == taken.end())
       out.push_back(
-          {name, table.is_text(name) ? table.text_column(name)[row] : fmt::format("{:.6g}", table.column(name)[row])});
+          {name, table.is_text(name) ? table.text_column(name)[row] : fmt::format("{:.6g}", table.values(name)[row])});
   return out;
 }
 
@@ -46,7 +46,7 @@ plot::Series band_outline(const std::string& name, const std::vector<double>& t,
 hydro::io::CsvTable read_measured(const std::filesystem::path& file, const hydro::Place& place = {}) {
   auto table = placed(place, [&] { return hydro::io::CsvTable::read(file); });
   for (const std::string& name : table.names()) {
-    if (table.is_text(name) || table.rows() == 0) continue;
+    if (table.is_text(name) || !table.has_known_unit(name) || table.rows() == 0) continue;
     const std::vector<double>& values = table.column(name);
     const auto largest =
         std::max_element(values.begin(), values.end(), [](double a, double b) { return std::abs(a) < std::abs(b); });

@@ -352,7 +352,7 @@ std::string key_reference() {
          "Written by `froude new --keys` from the tables that the reader itself uses; `scenes.md` explains how they go "
          "together.\n"
          "A quantity is text with its unit, any unit of its kind; the unit named here is SI. A default stands with its "
-         "reason.\n"
+         "reason. A table that several others hold is told once, where the first of them is.\n"
          "\n## Scenes of motion\n" +
          reference_of(motion_schema()) + "\n## Scenes of fits\n" + reference_of(fit_schema()) +
          "\n## Scenes of films\n" + reference_of(film_schema()) + "\n## Calibrations\n" +

@@ -178,11 +178,11 @@ ResponseSpectra answer_of(const scene::Scene& scene, std::size_t sea, const Dens
   }
   if (random.second_order) out.notes.emplace_back("bound waves of second order are left out");
   if (out.left_out > scene.accuracy)
-    out.warnings.push_back(
-        fmt::format("{:.2g} % of the sea's energy lies outside the frequencies of [ask.rao], {:.4g} to {:.4g} rad/s, "
-                    "and has no part "
-                    "in responses",
-                    100 * out.left_out, omega.front(), omega.back()));
+    out.warnings.push_back(fmt::format(
+        "warning: {:.2g} % of the sea's energy lies outside the frequencies of [ask.rao], {:.4g} to {:.4g} rad/s, "
+        "and has no part "
+        "in responses",
+        100 * out.left_out, omega.front(), omega.back()));
   return out;
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <numbers>
 
 #include "answers/cost_interview.hpp"
 #include "answers/periodic_scene.hpp"
@@ -65,7 +67,21 @@ std::vector<std::size_t> cells_to_step(const StabilityMap& map, std::size_t coun
   for (std::size_t c = 0; c < map.cells.size(); ++c)
     if (map.cells[c].fate) found.push_back(c);
   count = std::min(count, found.size());
-  for (std::size_t i = 0; i < count; ++i) out.push_back(found[(2 * i + 1) * found.size() / (2 * count)]);
+  const std::size_t columns = map.period.size(), rows = map.height.size();
+  // A lattice by the golden ratio: rows come in turn, and columns never fall into step with them.
+  for (std::size_t i = 0; i < count; ++i) {
+    const double row = (static_cast<double>(i) + 0.5) / static_cast<double>(count);
+    const double turns = 0.25 + static_cast<double>(i) * (std::numbers::phi - 1), column = turns - std::floor(turns);
+    const auto away = [&](std::size_t c) {
+      return std::hypot((static_cast<double>(c % columns) + 0.5) / static_cast<double>(columns) - column,
+                        (static_cast<double>(c / columns) + 0.5) / static_cast<double>(rows) - row);
+    };
+    const auto nearest =
+        std::min_element(found.rbegin(), found.rend(), [&](auto a, auto b) { return away(a) < away(b); });
+    out.push_back(*nearest);
+    found.erase(std::next(nearest).base());
+  }
+  std::sort(out.begin(), out.end());
   return out;
 }
 

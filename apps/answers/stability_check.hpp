@@ -41,7 +41,8 @@ struct MapCheck {
   double processor_s = 0;  ///< of the runs
 };
 
-/// Which cells are stepped: `count`, spread evenly over those that have a motion, in the map's order.
+/// Which cells are stepped: `count`, spread over both periods and heights among those that have a motion, in the
+/// map's order.
 std::vector<std::size_t> cells_to_step(const StabilityMap& map, std::size_t count);
 
 /// Steps cells of a map for `duration`, s, with the step and memory of runs that harmonic balance has, and compares the

@@ -92,6 +92,13 @@ std::vector<std::string> out_of_balance(const Prepared& p) {
       out.push_back(fmt::format("{}'s centre of buoyancy is ({:.6g}, {:.6g}) m beside its centre of gravity",
                                 body.name(), arm.x(), arm.y()));
   }
+  // Of a linear matrix only bodies on joints have it: others are taken to float.
+  for (const dynamics::Hydrostatics& element : p.hydrostatics) {
+    const dynamics::RigidBody& body = p.bodies[static_cast<std::size_t>(element.body)];
+    const double mass = body.mass(), displaced = mass + element.lift / p.water.gravity;
+    if (body.is_free(2) && std::abs(displaced - mass) > 1e-4 * mass)
+      out.push_back(fmt::format("{} displaces {:.7g} kg as placed and weighs {:.7g} kg", body.name(), displaced, mass));
+  }
   return out;
 }
 

@@ -88,14 +88,16 @@ void require_rest(const Prepared& prepared, const dynamics::Model& model) {
   for (const auto& b : prepared.bodies) weight += b.mass() * prepared.water.gravity;
   // Masses are given to some four digits and meshes hold 32-bit numbers: a hull that sinks by 1e-4 of its draught is at
   // rest. Springs alone can be placed without error.
-  const double least = prepared.buoyancy.empty() ? 1e-6 : 1e-4;
+  const bool floats = !prepared.buoyancy.empty() || !prepared.hydrostatics.empty();
+  const double limit = (floats ? 1e-4 : 1e-6) * weight;
   Eigen::Index worst = 0;
-  if (load.size() == 0 || load.cwiseAbs().maxCoeff(&worst) <= least * weight) return;
+  if (load.size() == 0 || load.cwiseAbs().maxCoeff(&worst) <= limit) return;
   const auto why = out_of_balance(prepared);
   throw InputError(
-      fmt::format("the scene is not in equilibrium as placed: {} feels {:.4g} {}{}{}",
-                  model.mode_name(static_cast<int>(worst)), load[worst], worst % 6 < 3 ? "N" : "N m",
-                  why.empty() ? "" : "; ", fmt::join(why, "; ")),
+      fmt::format(
+          "the scene is not in equilibrium as placed: {} feels {:.4g} {}, more than {:g} of the weight, {:.4g} N{}{}",
+          model.mode_name(static_cast<int>(worst)), load[worst], worst % 6 < 3 ? "N" : "N m", floats ? 1e-4 : 1e-6,
+          limit, why.empty() ? "" : "; ", fmt::join(why, "; ")),
       {},
       why.empty() ? "give connectors rest_length = \"as placed\", place the bodies where they balance, or ask about = "
                     "\"equilibrium\""

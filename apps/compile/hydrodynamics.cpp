@@ -73,6 +73,16 @@ const Coefficients& read(const Scene& scene, const Hydrodynamics& h, const std::
   });
 }
 
+/// Of another density alone coefficients are the same numbers times the ratio of densities (P29).
+std::string remedy_of_water(const Coefficients& data, const hydro::Water& scene) {
+  if (std::abs(data.water.gravity - scene.gravity) > 1e-3 * std::abs(scene.gravity))
+    return "make [water] agree with the data, or compute the coefficients for this water";
+  return fmt::format(
+      "make [water] agree with the data, or the data with it: `froude bem convert FILE --density-ratio {:.10g} -o "
+      "converted.h5`; masses of bodies that float change with it",
+      scene.density / data.water.density);
+}
+
 /// Density and gravity of the data must be those of the scene; a file that states none was read with the scene's.
 void require_same_water(const Scene& scene, const Coefficients& data, const hydro::Place& place) {
   const auto differs = [](double a, double b) { return a != b && !(std::abs(a - b) <= 1e-3 * std::abs(b)); };
@@ -81,7 +91,7 @@ void require_same_water(const Scene& scene, const Coefficients& data, const hydr
     throw InputError(fmt::format("the coefficients are for ρ = {:.6g} kg/m³ and g = {:.6g} m/s²; the scene has {:.6g} "
                                  "and {:.6g}",
                                  data.water.density, data.water.gravity, w.density, w.gravity),
-                     place, "make [water] agree with the data, or compute the coefficients for this water");
+                     place, remedy_of_water(data, w));
 }
 
 /// Which body of the file each scene body is; see scene.hpp on `body`.

@@ -101,7 +101,7 @@ void add_stability(CLI::App& app, Request& request) {
       ->add_option("--check", arguments->check,
                    "time: step some cells from rest, and tell whether the map has them right")
       ->check(CLI::IsMember({"time"}));
-  command->add_option("--check-cells", arguments->check_cells, "how many, spread evenly over the map")
+  command->add_option("--check-cells", arguments->check_cells, "how many, spread over periods and heights")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   command->add_option("--check-duration", *duration, "of each run, whose last fifth is compared")

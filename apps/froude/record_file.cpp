@@ -13,22 +13,39 @@
 namespace froude {
 namespace {
 
+std::string lower_case(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
+std::string ending_of(const Path& path) { return lower_case(path.extension().string()); }
+
+bool is_table(const std::string& ending) { return ending == ".csv" || ending == ".txt" || ending == ".dat"; }
+
+/// "time" or "t", in capitals or not; of several the first that is a time, since T may be a temperature. "" for none.
+std::string time_column(const hydro::io::CsvTable& table) {
+  std::string out;
+  for (const std::string& name : table.names()) {
+    const std::string lower = lower_case(name);
+    if (lower != "time" && lower != "t") continue;
+    if (table.has_known_unit(name) && hydro::compatible(table.dimension(name), hydro::dim::time)) return name;
+    if (out.empty()) out = name;
+  }
+  return out;
+}
+
+/// The columns of numbers whose units are known; others are told only if they are asked for.
 RunResult read_csv(const Path& path) {
   const auto table = hydro::io::CsvTable::read(path);
   RunResult record;
-  std::string time;
-  for (const std::string& name : table.names()) {
-    std::string lower = name;
-    std::transform(lower.begin(), lower.end(), lower.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    if (lower == "time" || lower == "t") time = name;
-  }
+  const std::string time = time_column(table);
   if (time.empty())
     throw hydro::InputError("the table has no column \"time\" or \"t\"", {.file = path.string()},
                             fmt::format("its columns are: {}", fmt::join(table.names(), ", ")));
   record.time = table.column(time, hydro::dim::time);
   for (const std::string& name : table.names()) {
-    if (name == time) continue;
+    if (name == time || table.is_text(name) || !table.has_known_unit(name)) continue;
     const std::string unit = table.unit_text(name);
     // Values are in SI; a header in other units is told in SI too.
     const bool is_si = unit.empty() || hydro::parse_unit(unit).factor == 1;
@@ -51,11 +68,9 @@ RunResult rising(RunResult record, const Path& path) {
 }  // namespace
 
 RunResult read_record(const Path& path) {
-  std::string ending = path.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string ending = ending_of(path);
   if (ending == ".h5" || ending == ".nc") return read_run(path);
-  if (ending == ".csv" || ending == ".txt" || ending == ".dat") return rising(read_csv(path), path);
+  if (is_table(ending)) return rising(read_csv(path), path);
   throw hydro::InputError(fmt::format("\"{}\" is no kind of file with time series that is known here", ending),
                           {.file = path.string()}, "give a .csv with a header, or the .h5 of `froude run`");
 }
@@ -97,6 +112,9 @@ void drop_after(RunResult& record, double to, const Path& file) {
 namespace {
 
 [[noreturn]] void refuse_unknown(const std::string& name, const std::vector<std::string>& known, const Path& file) {
+  // A column that is no signal says why: text, or a unit that is not known.
+  if (const std::string ending = ending_of(file); is_table(ending))
+    if (const auto table = hydro::io::CsvTable::read(file); table.has(name)) table.column(name);
   const std::string near = hydro::nearest(name, known);
   throw hydro::InputError(fmt::format("no signal is called \"{}\"", name), {.file = file.string()},
                           near.empty() ? fmt::format("signals are: {}", fmt::join(known, ", "))

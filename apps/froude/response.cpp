@@ -460,8 +460,8 @@ Report report_of(const Scatter& scatter, const std::vector<ResponseSpectra>& sea
   double left_out = 0;
   for (const auto& sea : seas) left_out = std::max(left_out, sea.left_out);
   if (left_out > scatter.scenes.front().read().accuracy)
-    warnings.push_back(
-        fmt::format("up to {:.2g} % of a sea's energy lies outside the frequencies of [ask.rao]", 100 * left_out));
+    warnings.push_back(fmt::format(
+        "warning: up to {:.2g} % of a sea's energy lies outside the frequencies of [ask.rao]", 100 * left_out));
   out.part("signals", std::move(signals));
   return std::move(out.sentences("notes", "note: {}", notes).sentences("warnings", "{}", warnings));
 }

@@ -132,7 +132,8 @@ Content table_at(const fs::path& path) {
     if (table.is_text(name))
       one.texts = table.text_column(name);
     else
-      one.values = table.column(name), one.unit = table.dimension(name).si();
+      one.values = table.values(name),
+      one.unit = table.has_known_unit(name) ? table.dimension(name).si() : table.unit_text(name);
     out.arrays.push_back(std::move(one));
   }
   return out;

@@ -39,10 +39,10 @@ Json table_contents(const std::filesystem::path& path) {
         {.file = path.string()}, "give a table that `froude psd` or `froude response` wrote");
   const Thinning thinning(table.rows(), std::max<std::size_t>(200, most_numbers_of_table / names.size()));
   for (const std::string& name : names) {
-    const auto& values = table.column(name);
+    const auto& values = table.values(name);
     const bool abscissa = columns.empty();
     columns.push_back({{"name", name},
-                       {"unit", table.dimension(name).si()},
+                       {"unit", table.has_known_unit(name) ? table.dimension(name).si() : table.unit_text(name)},
                        {"values", double_array(abscissa ? thinning.times(values) : thinning.values(values))}});
   }
   out["columns"] = columns;

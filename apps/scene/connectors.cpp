@@ -97,7 +97,8 @@ Binding<Axial> tabulated() {
 Binding<Axial> cable() {
   return Binding<Axial>("", "as axial, but it never pushes: slack where it is shorter than its rest length")
       .key(stiffness(), &Axial::stiffness)
-      .optional(damping("tension per rate of elongation, as far as the cable is tight"), &Axial::damping)
+      .optional(damping("c: of D = cv acts S/(S + abs D) beside the spring's tension S, nearly nothing as it tightens"),
+                &Axial::damping)
       .key(rest_length(), &Axial::rest_length)
       .then([](const Record&, Axial& out) { out.tension_only = true; });
 }

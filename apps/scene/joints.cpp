@@ -82,11 +82,14 @@ Binding<JointPrescribedMotion> prescribed(const Measure& m) {
 
 Binding<dynamics::PtoLaw> stops(const Measure& m) {
   using dynamics::EndStop, dynamics::PtoLaw;
-  return Binding<PtoLaw>(m.of("[joint.pto.stops]"), "ends of the stroke: a spring and a damper that never pull")
+  return Binding<PtoLaw>(m.of("[joint.pto.stops]"),
+                         "ends of the stroke: pressed in by d at the rate v, a spring S = kd and a damper D = cv push "
+                         "with S + S D/(S + abs D), not max(0, S + D)")
       .optional(quantity("lower", m.coordinate, "coordinate at which the lower one begins"))
       .optional(quantity("upper", m.coordinate, "coordinate at which the upper one begins"))
       .key(positive("stiffness", m.force / m.coordinate, "of the stop"))
-      .key(quantity("damping", m.force / (m.coordinate / dim::time), "of the stop, as far as its spring presses")
+      .key(quantity("damping", m.force / (m.coordinate / dim::time),
+                    "c: of D = cv acts S/(S + abs D), nearly nothing at first touch")
                .within(Limit::not_negative)
                .or_default(m.no_damping, "a stop gives back what it takes"))
       .at_least_one_of({"lower", "upper"})

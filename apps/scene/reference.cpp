@@ -91,16 +91,22 @@ std::string groups_of(const std::vector<Group>& groups, const std::vector<Key>& 
   return out;
 }
 
-void append_table(const Table& table, int depth, std::string& out) {
+std::string section_of(const Table& table, int depth) {
   const bool root = !table.title.starts_with('[');
-  out += fmt::format("\n{} {}\n\n{}.\n\n", std::string(static_cast<std::size_t>(depth), '#'),
-                     root ? "Top of the file" : "`" + table.title + "`", table.meaning);
+  std::string out = fmt::format("\n{} {}\n\n{}.\n\n", std::string(static_cast<std::size_t>(depth), '#'),
+                                root ? "Top of the file" : "`" + table.title + "`", table.meaning);
   out += rows(table.keys, table) + groups_of(table.groups, table.keys);
   for (const auto& variant : table.variants) {
     out += fmt::format("\nWith `{} = \"{}\"`, {}{}\n", table.chosen_by, variant.word, variant.meaning,
                        variant.keys.empty() ? "." : ":\n");
     if (!variant.keys.empty()) out += rows(variant.keys, table) + groups_of(variant.groups, variant.keys);
   }
+  return out;
+}
+
+/// A table that several hold, such as the spreading of each spectrum, once: keys name it by its title.
+void append_table(const Table& table, int depth, std::string& out) {
+  if (const std::string section = section_of(table, depth); out.find(section) == std::string::npos) out += section;
   const auto inner = [&](const std::vector<Key>& keys) {
     for (const Key& key : keys)
       if (key.inner != nullptr) append_table(*key.inner, 3, out);

@@ -35,10 +35,11 @@ struct Record {
   std::span<const double> time, values;
   Statistics all = statistics(values);
 };
+constexpr std::size_t least_waves = 3;  // fewer have no highest third
+auto waves_of(const Record& r) { return hydro::signal::single_waves(r.time, r.values); }
 double significant(const Record& r) {
-  const auto waves = hydro::signal::single_waves(r.time, r.values);
-  constexpr std::size_t least = 3;  // fewer have no highest third
-  return waves.size() < least ? none : hydro::signal::wave_statistics(waves).h13;
+  const auto waves = waves_of(r);
+  return waves.size() < least_waves ? none : hydro::signal::wave_statistics(waves).h13;
 }
 const std::vector<Statistic<Record>>& of_records() {
   static const std::vector<Statistic<Record>> all{
@@ -99,6 +100,17 @@ std::vector<std::string> words_of(const std::vector<Statistic<Of>>& all) {
   return out;
 }
 
+/// Why an answer has no such number.
+template <class Of>
+std::string why_none(const Of& /*of*/) {
+  return "the answer has none";
+}
+std::string why_none(const Record& r) {
+  const std::size_t waves = waves_of(r).size();
+  return fmt::format("the signal has {} {}, fewer than the {} that have a highest third", waves,
+                     waves == 1 ? "wave" : "waves", least_waves);
+}
+
 /// The statistics of `output` in its order.
 template <class Of>
 void tell(const Output& output, const std::vector<Statistic<Of>>& all, const Of& of, const std::string& name,
@@ -106,6 +118,7 @@ void tell(const Output& output, const std::vector<Statistic<Of>>& all, const Of&
   for (const std::string& word : output.statistics) {
     const auto& s = *std::find_if(all.begin(), all.end(), [&](const auto& known) { return known.word == word; });
     out.push_back({fmt::format("{}.{}", name, word), s.unit == nullptr ? unit : s.unit, s.value(of)});
+    if (!std::isfinite(out.back().value)) out.back().why = why_none(of);
   }
 }
 

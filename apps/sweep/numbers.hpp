@@ -13,9 +13,10 @@
 namespace froude::sweep {
 
 struct Number {
-  std::string column;  ///< "buoy.heave.maximum"
-  std::string unit;    ///< SI
-  double value;        ///< NaN where the answer has none, such as the significant value of a still signal
+  std::string column;    ///< "buoy.heave.maximum"
+  std::string unit;      ///< SI
+  double value;          ///< NaN where the answer has none, such as the significant value of a still signal
+  std::string why = {};  ///< why there is none
 };
 
 struct Answered {

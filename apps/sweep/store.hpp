@@ -33,7 +33,7 @@ enum class State { done, failed, skipped };
 struct Row {
   std::size_t number;
   State state;
-  std::string reason;  ///< why it failed or was skipped
+  std::string reason;  ///< why it failed or was skipped, or why numbers of it are missing
   std::string warnings;
   std::vector<Cell> axes, numbers;  ///< one a column; no numbers unless it is done
   std::string series, digest;       ///< file below the folder, and what its bytes come to; empty where none is kept

@@ -103,6 +103,14 @@ Row begun(const Cases& cases, std::size_t number, State state) {
           .digest = {}};
 }
 
+/// Why numbers of a case that is done are missing.
+static std::string reason_of_blanks(const std::vector<Number>& numbers) {
+  std::vector<std::string> out;
+  for (const Number& n : numbers)
+    if (!std::isfinite(n.value)) out.push_back(fmt::format("no {}: {}", n.column, n.why));
+  return fmt::format("{}", fmt::join(out, "; "));
+}
+
 Case answer_of(const Study& study, const Cases& cases, std::size_t number, const std::shared_ptr<compile::Kept>& kept,
                const std::function<void(double)>& progress) {
   Case out{begun(cases, number, State::failed), {}, {}};
@@ -111,6 +119,7 @@ Case answer_of(const Study& study, const Cases& cases, std::size_t number, const
     Answered found = answer(study, cases.scene(number), kept, progress);
     out.row.state = State::done;
     out.row.warnings = fmt::format("{}", fmt::join(found.warnings, "; "));
+    out.row.reason = reason_of_blanks(found.numbers);
     // SQLite knows no -0, which + 0.0 takes the sign from.
     for (const Number& n : found.numbers)
       out.row.numbers.push_back(std::isfinite(n.value) ? Cell(n.value + 0.0) : Cell());

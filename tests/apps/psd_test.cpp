@@ -11,12 +11,14 @@
 
 #include "fit/prepare.hpp"
 #include "froude/commands.hpp"
+#include "froude/record_file.hpp"
 #include "froude/result.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/base/random.hpp"
 #include "hydro/io/atomic_file.hpp"
 #include "hydro/io/csv.hpp"
 #include "hydro/io/hdf5.hpp"
+#include "support/scratch.hpp"
 
 namespace psd_test {
 namespace {
@@ -25,6 +27,21 @@ using froude::PsdArguments;
 using hydro::InputError;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
+
+// "did you mean °?" stopped a file whose temperature nobody asked for.
+TEST(RecordsOfCsv, LeaveOutTextAndUnitsThatAreNotKnownUntilTheyAreAskedFor) {
+  const auto file = support::scratch_folder() / "record_with_temperature.csv";
+  hydro::io::write_atomically(file,
+                              "t [s];F [N];T [\xC2\xB0"
+                              "C];note\n0;1,5;20,1;ok\n1;2,5;20,2;ok\n");
+  const froude::RunResult record = froude::read_record(file);
+  ASSERT_EQ(record.signals.size(), 1u);
+  EXPECT_EQ(froude::signal_of(record, "F", file).values, (std::vector<double>{1.5, 2.5}));
+  EXPECT_THAT([&] { froude::signal_of(record, "T", file); },
+              testing::ThrowsMessage<hydro::InputError>(testing::HasSubstr("is not a unit")));
+  EXPECT_THAT([&] { froude::signal_of(record, "note", file); },
+              testing::ThrowsMessage<hydro::InputError>(testing::HasSubstr("holds text")));
+}
 
 class Psd : public testing::Test {
  protected:

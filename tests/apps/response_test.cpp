@@ -121,6 +121,16 @@ TEST(ResponseSpectra, CutTheSeaAsTheSceneDoes) {
   EXPECT_THAT(found.warnings, testing::IsEmpty());
 }
 
+TEST(ResponseSpectra, WarnOfEnergyOutsideTheFrequenciesAskedFor) {
+  std::string shorter = long_crested;
+  shorter.replace(shorter.find("9 s"), 3, "3 s");
+  const auto found = spectra_of(scene_text(shorter));
+  EXPECT_GT(found.left_out, 2e-3) << "the accuracy asked";
+  EXPECT_THAT(found.warnings,
+              testing::Contains(testing::AllOf(testing::StartsWith("warning: "),
+                                               testing::HasSubstr("of the sea's energy lies outside"))));
+}
+
 TEST(ResponseSpectra, HaveTheVarianceOfARunInThatSea) {
   const auto steady = froude::scene::parse(
       scene_text(

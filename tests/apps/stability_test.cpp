@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <fstream>
 #include <numbers>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -228,12 +229,37 @@ TEST(Stability, IsWhatARunFromRestComesTo) {
   EXPECT_TRUE(check.cells[0].agrees(map.cells[check.cells[0].cell]));
 }
 
-TEST(StabilityCheck, TakesCellsWithAMotionEvenly) {
+StabilityMap blank_map(std::size_t periods, std::size_t heights) {
   StabilityMap map;
-  map.cells.resize(7);
+  map.period.resize(periods), map.height.resize(heights), map.cells.resize(periods * heights);
+  return map;
+}
+
+TEST(StabilityCheck, TakesCellsThatHaveAMotion) {
+  StabilityMap map = blank_map(7, 1);
   for (const std::size_t c : {1u, 2u, 4u, 6u}) map.cells[c].fate = Fate::stable;
-  EXPECT_EQ(cells_to_step(map, 2), (std::vector<std::size_t>{2, 6}));
+  for (const std::size_t c : cells_to_step(map, 2)) EXPECT_TRUE(map.cells[c].fate) << c;
   EXPECT_EQ(cells_to_step(map, 9), (std::vector<std::size_t>{1, 2, 4, 6}));
+}
+
+// A stride through the map's order that is a whole number of its rows stepped one period alone.
+TEST(StabilityCheck, SpreadsCellsOverPeriodsAndHeights) {
+  for (const auto& [periods, heights] : {std::pair{21u, 8u}, {5u, 4u}, {4u, 4u}, {10u, 16u}, {8u, 3u}, {16u, 16u}})
+    for (std::size_t count = 2; count <= 8; ++count) {
+      StabilityMap map = blank_map(periods, heights);
+      for (auto& cell : map.cells) cell.fate = Fate::stable;
+      std::set<std::size_t> columns, rows;
+      const auto cells = cells_to_step(map, count);
+      EXPECT_EQ(cells.size(), count);
+      for (const std::size_t c : cells) columns.insert(c % periods), rows.insert(c / periods);
+      // More than half of what could be different is, and both halves of either axis have some.
+      EXPECT_GE(columns.size(), std::min<std::size_t>(count, periods) / 2 + 1) << periods << " x " << heights;
+      EXPECT_GE(rows.size(), std::min<std::size_t>(count, heights) / 2 + 1) << periods << " x " << heights;
+      EXPECT_LT(*columns.begin(), periods / 2.0) << periods << " x " << heights << ", " << count;
+      EXPECT_GE(*columns.rbegin() + 1, periods / 2.0) << periods << " x " << heights << ", " << count;
+      EXPECT_LT(*rows.begin(), heights / 2.0) << periods << " x " << heights << ", " << count;
+      EXPECT_GE(*rows.rbegin() + 1, heights / 2.0) << periods << " x " << heights << ", " << count;
+    }
 }
 
 }  // namespace

@@ -21,6 +21,7 @@
 #include "sweep/ranks.hpp"
 #include "sweep/sweep.hpp"
 #include "sweep/table.hpp"
+#include "sweep/team.hpp"
 
 namespace froude_test::sweep_of_cases {
 namespace {
@@ -72,6 +73,17 @@ double number(const Cell& cell) { return std::get<double>(cell); }
 const std::string masses = axis("body.block.mass", "values = [\"25 kg\", \"100 kg\", \"400 kg\"]", "name = \"mass\"");
 const std::string starts =
     axis("body.block.initial.surge", "range = \"0.1 m .. 0.2 m, every 0.1 m\"", "name = \"start\"");
+
+// 4 s are 1.3 periods of π s: no three waves have a highest third.
+TEST(Answers, SayWhyANumberIsMissing) {
+  std::string text = oscillator;
+  text.replace(text.find("15 s"), 4, "4 s");
+  const Study study = study_of(starts);
+  const auto found = froude::sweep::answer_of(study, Cases(study, text, {}), 1, nullptr, {});
+  EXPECT_THAT(found.row.reason,
+              testing::MatchesRegex("no block.surge.significant: the signal has [01] waves?, fewer than "
+                                    "the 3 that have a highest third"));
+}
 
 TEST(Cases, AreEveryValueWithEveryOtherTheLastAxisFirst) {
   const Study study = study_of(masses + starts);

@@ -53,7 +53,7 @@ class Stability(unittest.TestCase):
                 self.assertEqual(cell["multiplier"] > 1, cell["fate"] != "stable")
             self.assertGreater(period["mathieu_height_m"], 0)
         check = told["check"]
-        self.assertEqual([c["period_s"] for c in check["cells"]], [9.0, 9.0])
+        self.assertEqual([(c["period_s"], c["height_m"]) for c in check["cells"]], [(7.5, 2.0), (9.0, 2.5)])
         self.assertEqual((check["agree"], check["decided"]), (2, 2), check)
         self.assertGreater(check["run_over_cell"], 1)
         rows = [r for r in csv.reader((self.folder / "map.csv").read_text().splitlines()) if not r[0].startswith("#")]

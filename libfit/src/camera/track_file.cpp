@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <iterator>
@@ -15,6 +14,7 @@
 #include "hydro/base/error.hpp"
 #include "hydro/base/units.hpp"
 #include "hydro/io/atomic_file.hpp"
+#include "hydro/io/csv_cells.hpp"
 #include "hydro/io/hdf5.hpp"
 #include "hydro/io/trial.hpp"
 
@@ -23,28 +23,10 @@ namespace {
 
 using hydro::InputError;
 using hydro::Place;
+using hydro::io::NumberNotation;
+using hydro::io::TableCell;
+using hydro::io::TableLine;
 constexpr double unseen = std::numeric_limits<double>::quiet_NaN();
-
-struct TrackLine {
-  std::string_view text;
-  int number;
-};
-
-/// Lines that are neither blank nor comments (#, %).
-std::vector<TrackLine> lines_of(std::string_view text) {
-  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
-  if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
-  std::vector<TrackLine> out;
-  for (int number = 1; !text.empty(); ++number) {
-    const auto end = std::min(text.find('\n'), text.size());
-    std::string_view line = text.substr(0, end);
-    text.remove_prefix(std::min(end + 1, text.size()));
-    if (line.ends_with('\r')) line.remove_suffix(1);
-    const std::string_view body = hydro::trimmed(line);
-    if (!body.empty() && body.front() != '#' && body.front() != '%') out.push_back({line, number});
-  }
-  return out;
-}
 
 /// "1280 x 720 px", which write_track() leaves in the file, CSV after "# picture: ".
 Eigen::Vector2i size_in(std::string_view text, std::string_view before) {
@@ -56,50 +38,30 @@ Eigen::Vector2i size_in(std::string_view text, std::string_view before) {
   return {width, height};
 }
 
-std::vector<std::string_view> cells_of(std::string_view line, char separator) {
-  std::vector<std::string_view> out;
-  if (separator == ' ') {
-    for (std::size_t at = 0; (at = line.find_first_not_of(" \t", at)) != std::string_view::npos;) {
-      const auto end = std::min(line.find_first_of(" \t", at), line.size());
-      out.push_back(line.substr(at, end - at));
-      at = end;
-    }
-    return out;
-  }
-  for (std::size_t from = 0;;) {
-    const auto to = std::min(line.find(separator, from), line.size());
-    std::string_view cell = hydro::trimmed(line.substr(from, to - from));
-    if (cell.size() >= 2 && cell.front() == '"' && cell.back() == '"') cell = cell.substr(1, cell.size() - 2);
-    out.push_back(cell);
-    if (to == line.size()) return out;
-    from = to + 1;
-  }
+/// What stands between the cells: whatever of these the last line has, which is a row.
+char separator_of(const std::vector<TableLine>& lines) {
+  const char found = hydro::io::separator_in(lines.back().text);
+  return found == '\0' ? ' ' : found;
 }
 
-/// What stands between the cells: whatever of these the last line has, which is a row.
-char separator_of(const std::vector<TrackLine>& lines) {
-  for (const char c : {';', '\t', ','})
-    if (lines.back().text.find(c) != std::string_view::npos) return c;
-  return ' ';
+/// Whether a marker was not seen in this cell.
+bool is_unseen(std::string_view cell) {
+  std::string lower(cell);
+  std::transform(lower.begin(), lower.end(), lower.begin(), [](unsigned char c) { return std::tolower(c); });
+  return lower.empty() || lower == "nan" || lower == "na" || lower == "-";
 }
 
 /// NaN for a cell without a place; nothing for text.
-std::optional<double> number_in(std::string_view cell, char separator) {
-  std::string lower(cell);
-  std::transform(lower.begin(), lower.end(), lower.begin(), [](unsigned char c) { return std::tolower(c); });
-  if (lower.empty() || lower == "nan" || lower == "na" || lower == "-") return unseen;
-  if (separator != ',' && lower.find('.') == std::string::npos) std::replace(lower.begin(), lower.end(), ',', '.');
-  const char* begin = lower.data() + (lower.front() == '+');
-  double value = 0;
-  const auto [end, code] = std::from_chars(begin, lower.data() + lower.size(), value);
-  if (code != std::errc{} || end != lower.data() + lower.size() || !std::isfinite(value)) return std::nullopt;
-  return value;
+std::optional<double> number_in(const TableCell& cell, const NumberNotation& notation) {
+  if (is_unseen(cell.text)) return unseen;
+  const auto value = notation.number(cell);
+  return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
-bool is_row(const std::vector<std::string_view>& cells, char separator) {
+bool is_row(const std::vector<TableCell>& cells, const NumberNotation& notation) {
   bool any = false;
-  for (const auto cell : cells) {
-    const auto value = number_in(cell, separator);
+  for (const auto& cell : cells) {
+    const auto value = number_in(cell, notation);
     if (!value) return false;
     any = any || !std::isnan(*value);
   }
@@ -135,7 +97,16 @@ void add_name(std::string_view cell, RawTrack& out) {
   out.units.emplace_back(has_unit ? hydro::trimmed(cell.substr(open + 1, close - open - 1)) : std::string_view());
 }
 
-void take_names(const std::vector<TrackLine>& lines, std::size_t first_row, std::size_t count, char separator,
+/// Units in a line of their own.
+void take_units(const std::vector<TableCell>& cells, RawTrack& out) {
+  for (std::size_t c = 0; c < cells.size(); ++c) {
+    std::string_view unit = cells[c].text;
+    if (unit.starts_with('[') || unit.starts_with('(')) unit = hydro::trimmed(unit.substr(1, unit.size() - 2));
+    if (out.units[c].empty() && unit != "-") out.units[c] = unit;
+  }
+}
+
+void take_names(const std::vector<TableLine>& lines, std::size_t first_row, std::size_t count, char separator,
                 const TrackColumns& asked, RawTrack& out) {
   if (!asked.names.empty()) {
     if (asked.names.size() != count)
@@ -145,11 +116,18 @@ void take_names(const std::vector<TrackLine>& lines, std::size_t first_row, std:
     for (const std::string& name : asked.names) add_name(name, out);
     return;
   }
+  std::vector<TableCell> units;
   for (std::size_t i = first_row; i-- > 0;) {
-    const auto cells = cells_of(lines[i].text, separator);
+    const auto cells = hydro::io::table_cells(lines[i], separator, out.file);
     if (cells.size() != count) continue;
+    if (i > 0 && units.empty() && hydro::io::is_units_row(cells) &&
+        hydro::io::table_cells(lines[i - 1], separator, out.file).size() == count) {
+      units = cells;
+      continue;
+    }
     out.header = {out.file, lines[i].number, 0, std::string(lines[i].text), 0};
-    for (const auto cell : cells) add_name(cell, out);
+    for (const auto& cell : cells) add_name(cell.plain(), out);
+    take_units(units, out);
     return;
   }
   throw InputError("no line names the columns of this track",
@@ -157,34 +135,68 @@ void take_names(const std::vector<TrackLine>& lines, std::size_t first_row, std:
                    fmt::format("name its {} columns in the scene: [data] columns = [\"x\", \"y\", ...]", count));
 }
 
+/// \throws hydro::InputError for text, and for a number that may be another one than it seems
+double place_in(const TableCell& cell, const std::string& column, const TableLine& line, NumberNotation& notation,
+                const std::string& file) {
+  const auto place = [&] {
+    return Place{file, line.number, cell.column, std::string(line.text), static_cast<int>(cell.text.size())};
+  };
+  const auto value = number_in(cell, notation);
+  if (!value && hydro::io::has_thousands_marks(cell.text))
+    throw hydro::io::thousands_marks_refused(cell.text, column).at(place());
+  if (!value)
+    throw InputError(fmt::format("\"{}\" is no number", cell.text), place(),
+                     "leave the cell of a marker that was not seen empty; a second track needs a file of its own");
+  if (!std::isnan(*value))
+    if (const auto wrong = notation.objection(cell, column, line.number)) throw wrong->at(place());
+  return *value;
+}
+
+/// How many cells there are up to the last that holds something.
+std::size_t filled(const std::vector<TableCell>& cells) {
+  std::size_t n = cells.size();
+  while (n > 0 && cells[n - 1].text.empty()) --n;
+  return n;
+}
+
+void take_rows(const std::vector<TableLine>& lines, std::size_t first, char separator, NumberNotation& notation,
+               RawTrack& out) {
+  const std::size_t count = out.columns.size();
+  for (std::size_t i = first; i < lines.size(); ++i) {
+    const auto cells = hydro::io::table_cells(lines[i], separator, out.file);
+    if (cells.size() < count || filled(cells) > count)
+      throw InputError(fmt::format("the row has {} cells, {} columns are named", cells.size(), count),
+                       {out.file, lines[i].number, 0, std::string(lines[i].text), 0},
+                       "leave the cell of a marker that was not seen empty");
+    for (std::size_t c = 0; c < count; ++c)
+      out.columns[c].push_back(place_in(cells[c], out.names[c], lines[i], notation, out.file));
+    out.line_of_row.push_back(lines[i].number);
+  }
+}
+
 RawTrack raw_track(std::string_view text, const std::string& file_name, const TrackColumns& asked) {
   RawTrack out{
       .file = file_name, .header = {.file = file_name}, .names = {}, .units = {}, .columns = {}, .line_of_row = {}};
-  const auto lines = lines_of(text);
+  const auto lines = hydro::io::table_lines(hydro::io::table_text(text, file_name), "#%");
   if (lines.empty()) throw InputError("the track is empty", {.file = file_name}, "write rows of time and places");
   const char separator = separator_of(lines);
+  NumberNotation notation(separator);
+  const auto cells = [&](std::size_t i) { return hydro::io::table_cells(lines[i], separator, file_name); };
   std::size_t first = 0;
-  while (first < lines.size() && !is_row(cells_of(lines[first].text, separator), separator)) ++first;
+  while (first < lines.size() && !is_row(cells(first), notation)) ++first;
   if (first == lines.size())
     throw InputError("the track has no row of numbers", {.file = file_name}, "write rows of time and places");
-  const std::size_t count = cells_of(lines[first].text, separator).size();
+  std::size_t count = cells(first).size();
+  const auto has_names = [&] {
+    for (std::size_t i = 0; i < first; ++i)
+      if (cells(i).size() == count) return true;
+    return asked.names.size() == count;
+  };
+  // A separator at the end of each row, and none after the names.
+  while (count > 1 && !has_names() && cells(first)[count - 1].text.empty()) --count;
   take_names(lines, first, count, separator, asked, out);
   out.columns.resize(count);
-  for (std::size_t i = first; i < lines.size(); ++i) {
-    const auto cells = cells_of(lines[i].text, separator);
-    const Place place{file_name, lines[i].number, 0, std::string(lines[i].text), 0};
-    if (cells.size() != count)
-      throw InputError(fmt::format("the row has {} cells, {} columns are named", cells.size(), count), place,
-                       "leave the cell of a marker that was not seen empty");
-    for (std::size_t c = 0; c < count; ++c) {
-      const auto value = number_in(cells[c], separator);
-      if (!value)
-        throw InputError(fmt::format("\"{}\" is no number", cells[c]), place,
-                         "leave the cell of a marker that was not seen empty; a second track needs a file of its own");
-      out.columns[c].push_back(*value);
-    }
-    out.line_of_row.push_back(lines[i].number);
-  }
+  take_rows(lines, first, separator, notation, out);
   return out;
 }
 

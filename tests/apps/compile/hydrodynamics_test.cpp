@@ -53,6 +53,15 @@ run = { duration = "1 s", every = "0.1 s" }
 )";
 }
 
+TEST(Hydrodynamics, InSeaWaterOfDataForFreshWaterTellHowToConvertThem) {
+  std::string text = hinged("displaced_volume = \"260 m^3\"\n");
+  text.replace(text.find("1000 kg"), 4, "1025");
+  text.replace(text.find("hemisphere_r5.1"), 15, "hemisphere_r5.nc");
+  text.erase(text.find("reference_point"), std::string("reference_point = \"(0, 0, 0) m\"\n").size());
+  EXPECT_THAT([&] { compile::prepare(froude_test::parse(text)); },
+              ThrowsMessage<InputError>(HasSubstr("froude bem convert FILE --density-ratio 1.025 -o converted.h5")));
+}
+
 TEST(Hydrodynamics, OfABodyOnJointsNeedItsVolume) {
   EXPECT_THAT([] { compile::prepare(froude_test::parse(hinged(""))); },
               ThrowsMessage<InputError>(AllOf(HasSubstr("test.toml:12"), HasSubstr("\"m\" is on joints"),
@@ -68,6 +77,22 @@ TEST(Hydrodynamics, ActWithTheVolumeAndCentreThatTheSceneStates) {
   // (r_b − r_g) × (0, 0, ρgV) = ρgV (r_y, −r_x, 0) with r_b − r_g = (−0.4, 0.2, 0.2) m
   const Eigen::Vector2d expected = buoyancy * Eigen::Vector2d(0.2, 0.4);
   EXPECT_LT((prepared.hydrostatics[0].moment - expected).norm(), 1e-6 * buoyancy);
+}
+
+// Masses are given to four digits: 6 N in 2.6 MN were refused on a joint, and taken without one.
+TEST(Hydrodynamics, OfABodyOnASliderBalanceToTheDigitsOfItsMass) {
+  const auto held = [](const std::string& volume) {
+    std::string text = hinged("displaced_volume = \"" + volume + " m^3\"\ncentre_of_buoyancy = \"(0.5, 0, -1.8) m\"\n");
+    text.replace(text.find("hinge"), 5, "slider");
+    text.replace(text.find("axis = \"y\""), 10, "axis = \"z\"");
+    const auto scene = froude_test::parse(text);
+    return compile::frequency_model(compile::prepare(scene)).modes();
+  };
+  EXPECT_EQ(held("200.01"), 6) << "5e-5 of the weight";
+  EXPECT_THAT(
+      [&] { held("200.04"); },
+      ThrowsMessage<InputError>(AllOf(HasSubstr("m.heave feels"), HasSubstr("more than 0.0001 of the weight, 196.2 N"),
+                                      HasSubstr("displaces 200040 kg as placed and weighs 200000 kg"))));
 }
 
 TEST(Hydrodynamics, RefuseAVolumeThatContradictsTheFile) {

@@ -58,6 +58,16 @@ TEST(KeyReference, MentionsEveryKeyWithItsMeaning) {
   });
 }
 
+// The spreading of a sea was told anew for each of twelve spectra.
+TEST(KeyReference, TellsATableThatSeveralHoldOnce) {
+  const std::string reference = key_reference();
+  for (const char* title : {"### `[waves.spreading]`\n", "### `[waves.components]`\n", "### `[waves.crest]`\n"}) {
+    const auto first = reference.find(title);
+    ASSERT_NE(first, std::string::npos) << title;
+    EXPECT_EQ(reference.find(title, first + 1), std::string::npos) << title;
+  }
+}
+
 TEST(KeyReference, IsWhatTheGuideHolds) {
   EXPECT_EQ(hydro::io::read_text(froude_test::source_dir() / "docs/guide/scene-keys.md"),
             froude::sweep::key_reference())

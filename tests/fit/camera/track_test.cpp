@@ -57,6 +57,28 @@ TEST(TrackFile, InMillimetresWithTabsAndTitles) {
   EXPECT_EQ(t.marker("marker").seen[1]->at, Eigen::Vector2d(0.003, 0.004));
 }
 
+// "1.024" beside "0,04" is pixel 1024, or 1.024 mm: nobody can know.
+TEST(TrackFile, RefusesDecimalPointsBesideDecimalCommas) {
+  const TrackColumns asked{.time = "t"};
+  EXPECT_THAT(
+      refused([&] { parse_track("t [s];b_x [px];b_y [px]\n0,04;1.024;3\n", "t.csv", asked); }),
+      AllOf(HasSubstr("t.csv:2:6"), HasSubstr("\"1.024\" in column \"b_x\" has a point"), HasSubstr("thousands")));
+  EXPECT_THAT(refused([&] { parse_track("t [s];b_x [px];b_y [px]\n0,04;1;3\n0,08;1.024,5;3\n", "t.csv", asked); }),
+              AllOf(HasSubstr("t.csv:3"), HasSubstr("marks thousands")));
+}
+
+TEST(TrackFile, ReadsUnitsInALineOfTheirOwnAndQuotes) {
+  const Track t = parse_track("A\rt,b_x,\"b_y\"\rms,px,px\r\"40\",1,2\r", "t.csv", {.time = "t"});
+  EXPECT_DOUBLE_EQ(t.time.at(0), 0.04);
+}
+
+TEST(TrackFile, TakesASeparatorAtTheEndOfEachRowForNoColumn) {
+  const TrackColumns asked{.time = "t"};
+  EXPECT_EQ(parse_track("t [s];b_x [px];b_y [px]\n0;1;2;\n1;;;\n", "t.csv", asked).time.size(), 2u);
+  EXPECT_THAT(refused([&] { parse_track("t [s];b_x [px];b_y [px]\n0;1;2;\n1;1;2;3\n", "t.csv", asked); }),
+              HasSubstr("the row has 4 cells"));
+}
+
 TEST(TrackFile, AsksOnceForAllUnits) {
   EXPECT_THAT(refused([] { parse_track("t,x,y\n0,1,2\n1,2,3\n", "plain.csv", {.time = "t"}); }),
               AllOf(HasSubstr("in which units are the columns t, x, y?"),

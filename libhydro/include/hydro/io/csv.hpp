@@ -4,6 +4,9 @@
 ///   # towing run 12                       comments and blank lines anywhere
 ///   time [s]; force [N]; speed [m/s]      units in [] or (); any column order; "," ";" or tab
 ///   0,000; 1,25; 0,843                    decimal comma where the separator is not a comma
+///
+/// Title lines may come before the header, a row of units may follow on it, cells may be quoted (RFC 4180), and empty
+/// cells may end each line. Numbers have no thousands marks.
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -16,9 +19,8 @@ namespace hydro::io {
 /// One table, numbers already in SI. Cells of a column whose first cell is no number are kept as text.
 class CsvTable {
  public:
-  /// \throws InputError with line and column: unreadable file, no header, ragged row, a cell that is empty, NaN,
-  /// infinite or no number, a unit that is not known or means two things ("g": grams or gravity), two columns of one
-  /// name.
+  /// \throws InputError with line and column: unreadable file, another encoding than UTF-8, no header, ragged row, a
+  /// cell that is empty, NaN, infinite or no number, decimal points beside decimal commas, two columns of one name.
   static CsvTable read(const std::filesystem::path& path);
   static CsvTable parse(std::string_view text, const std::string& file_name);
 
@@ -28,10 +30,13 @@ class CsvTable {
   bool has(std::string_view name) const;
 
   /// Values in SI. \throws InputError naming the nearest column if there is none, if the column is text, or its unit
-  /// is missing or of another dimension.
+  /// is missing, of another dimension, not known, or means two things ("g": grams or gravity).
   const std::vector<double>& column(std::string_view name, const Dimension& needed) const;
   /// Values in SI with the dimension that the header states (a number where it states none).
   const std::vector<double>& column(std::string_view name) const;
+  /// As column(name), but as they are written where the unit is not known.
+  const std::vector<double>& values(std::string_view name) const;
+  bool has_known_unit(std::string_view name) const;
   const std::vector<std::string>& text_column(std::string_view name) const;
   bool is_text(std::string_view name) const { return find(name).is_text; }
   Dimension dimension(std::string_view name) const;
@@ -50,7 +55,10 @@ class CsvTable {
     std::vector<double> values;
     std::vector<std::string> texts;
   };
+  struct Reader;
   const Column& find(std::string_view name) const;
+  const Column& with_unit(std::string_view name) const;
+  Place place_in_header(const Column& column) const;
 
   std::string file_;
   std::string header_text_;
