@@ -205,6 +205,33 @@ class Space(WithFolder):
                 self.assertLess(abs(off), 0.02)
         self.assertAlmostEqual(inside / (6 * len(rows)), 0.95, delta=0.03)
 
+    def made_wrong(self, frames):
+        """The left film with bow and stern exchanged in some frames."""
+        lines = (self.folder / "film" / "float_left.csv").read_text().rstrip("\n").split("\n")
+        first = next(i for i, line in enumerate(lines) if "bow_x" in line)
+        at = {m: next(k for k, cell in enumerate(lines[first].split(",")) if cell.startswith(f"{m}_x")) for m in ("bow", "stern")}
+        for i in frames:
+            cells = lines[first + i].split(",")
+            for k in (0, 1):
+                cells[at["bow"] + k], cells[at["stern"] + k] = cells[at["stern"] + k], cells[at["bow"] + k]
+            lines[first + i] = ",".join(cells)
+        (self.folder / "film" / "exchanged.csv").write_text("\n".join(lines) + "\n")
+        text = (self.folder / "film" / "float.toml").read_text()
+        (self.folder / "film" / "exchanged.toml").write_text(text.replace("float_left.csv", "exchanged.csv"))
+        return "kinematics", "film/exchanged.toml", "--film", "left", "--space", "-o", "six.csv"
+
+    def test_frames_whose_pixels_fit_no_pose_are_left_empty(self):
+        told = json.loads(self.done(*self.made_wrong([40]), "--json"))
+        self.assertEqual((told["body"][0]["frames"], told["body"][0]["lost"]), (119, 1))
+        self.assertIn('markers of "float" fit no pose at', told["misfits"][0])
+        row = rows_of(self.folder / "six.csv")[39]
+        self.assertEqual(row["float.roll [rad]"], "")
+        self.assertGreater(float(row["float.misfit [1]"]), 10)  # names that are exchanged are half a metre off
+
+    def test_a_film_whose_pixels_often_fit_no_pose_is_refused(self):
+        error = self.refused(*self.made_wrong(range(20, 40)))
+        self.assertIn('in 20 of 120 frames the markers of "float" lie farther from every pose', error)
+
     def test_two_cameras_that_are_not_in_step_tell_places(self):
         told = json.loads(self.done("kinematics", "film/float.toml", "--film", "left", "--second", "right", "-o", "places.csv",
                                     "--json"))

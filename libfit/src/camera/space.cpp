@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "dynamics/spatial/rotation.hpp"
 #include "gauss_newton.hpp"
 #include "hydro/base/dense.hpp"
 #include "hydro/base/error.hpp"
+#include "hydro/signal/distributions.hpp"
 
 namespace fit::camera {
 namespace {
@@ -124,6 +126,14 @@ void check_markers(const Track& track, const std::vector<MarkerInSpace>& markers
   hydro::require(across[1] > thin * across[2], "the markers on a body lie on one line, which tells no turn about it");
 }
 
+/// (V33) Whether chance makes the pixels of one of so many frames miss their pose by that.
+bool by_chance(const SpacePose& pose, std::size_t markers, std::size_t frames) {
+  constexpr double clean = 0.99;
+  const auto freedoms = static_cast<double>(2 * markers - 6);
+  return pose.stray * pose.stray * freedoms <
+         hydro::signal::chi_square_quantile(std::pow(clean, 1 / static_cast<double>(frames)), freedoms);
+}
+
 }  // namespace
 
 Vector2d pixel_of(const Eye& eye, const Vector3d& point) {
@@ -150,6 +160,7 @@ SpacePoses poses_in_space(const Track& track, const Eye& eye, const std::vector<
   SpacePose last{place, Eigen::Quaterniond::Identity(), {}, 0};
   for (std::size_t i = 0; i < track.frames(); ++i) {
     out.pose.emplace_back();
+    out.stray.push_back(std::numeric_limits<double>::quiet_NaN());
     std::vector<SeenOnBody> seen;
     for (const auto& m : markers)
       if (const auto& s = track.marker(m.marker).seen[i])
@@ -167,10 +178,16 @@ SpacePoses poses_in_space(const Track& track, const Eye& eye, const std::vector<
     if (std::optional<SpacePose> other = downhill(eye, seen, mirrored(eye, seen, *best), other_squares);
         other && !alike(*best, *other)) {
       if (other_squares < squares) std::swap(best, other), std::swap(squares, other_squares);
-      if (other_squares - squares < as_likely) {
+      if (other_squares - squares < as_likely && by_chance(*best, seen.size(), track.frames())) {
         ++out.ambiguous;
         continue;
       }
+    }
+    out.stray.back() = best->stray;
+    if (!by_chance(*best, seen.size(), track.frames())) {
+      ++out.lost;
+      out.misfits.push_back(i);
+      continue;
     }
     last = *best;
     out.pose.back() = best;

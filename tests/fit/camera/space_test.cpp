@@ -129,6 +129,25 @@ TEST(PosesInSpace, AreThoseOfTheBody) {
   }
 }
 
+TEST(PosesInSpace, AreNotToldWherePixelsFitNone) {
+  const Eye eye = eye_of(view_of_board(false), 0, 0);
+  const double sd = 0.3;
+  Track track = filmed(eye, on_body, 100, sd, 6);
+  // One in a hundred clean films has such a frame; this one has none.
+  EXPECT_EQ(poses_in_space(track, eye, on_body, {0.4, 0, 1}, sd).misfits.size(), 0U);
+  std::swap(track.markers[0].seen[40], track.markers[2].seen[40]);
+  track.markers[3].seen[70]->at.x() += 20;
+  const auto poses = poses_in_space(track, eye, on_body, {0.4, 0, 1}, sd);
+  EXPECT_THAT(poses.misfits, testing::ElementsAre(40, 70));
+  EXPECT_EQ(poses.lost, 2);
+  for (const std::size_t i : {40U, 70U}) {
+    EXPECT_FALSE(poses.pose[i]) << i;
+    EXPECT_GT(poses.stray[i], 4) << i;  // of two numbers left over, sqrt(2 ln 1e4 / 2) is 3.0
+  }
+  EXPECT_TRUE(poses.pose[41]);
+  EXPECT_TRUE(poses.pose[71]);
+}
+
 TEST(PosesInSpace, KnowTheirErrors) {
   const Eye eye = eye_of(view_of_board(false), 0, 0);
   const double sd = 0.3;
