@@ -265,10 +265,10 @@ void places_by_two(const KinematicsArguments& a, Report& report) {
     const Vector3d sd = (variance / frames).cwiseSqrt();
     report.row("marker",
                "{}: in {} frames, standard deviations {:.2g}, {:.2g} and {:.2g} m along x, y and z; rays pass each "
-               "other by {:.2g} of their errors",
+               "other by {:.2g} of their errors, between frames of the second film {:.3g} s apart",
                fact("name", points.markers[m]), fact("frames", frames), fact("deviation_x_m", sd.x()),
-               fact("deviation_y_m", sd.y()), fact("deviation_z_m", sd.z()),
-               fact("stray", std::sqrt(squares / frames)));
+               fact("deviation_y_m", sd.y()), fact("deviation_z_m", sd.z()), fact("stray", std::sqrt(squares / frames)),
+               fact("second_spacing_s", points.spacing));
   }
 }
 

@@ -70,10 +70,12 @@ struct SpaceTrack {
   std::vector<double> time;
   std::vector<std::string> markers;                           ///< that both tracks have
   std::vector<std::vector<std::optional<SpacePoint>>> point;  ///< of each marker, one a frame
+  double spacing = 0;                                         ///< s, mean, of the second track's frames
   int points = 0, behind = 0;  ///< pairs of sightings with a point, and those whose rays do not meet
 };
 /// At the times of the first track. The second is taken between its frames by the cubic through the two on each side,
-/// their covariances along; where one of the four is missing there is a gap. \throws hydro::InputError: tracks in
+/// their covariances along, with what the bends of the marker's path let such a cubic miss; where one of the four is
+/// missing there is a gap. \throws hydro::InputError: tracks in
 /// metres or of another size than their lens, no marker in both, times that have nothing in common, sightings without
 /// covariance where `deviation` is not positive
 SpaceTrack joined(const SeenByEye& first, const SeenByEye& second);
