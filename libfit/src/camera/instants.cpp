@@ -14,15 +14,15 @@ namespace {
 
 using hydro::InputError;
 
-constexpr Eigen::Index most = 4;  // powers of the series, and of the one beyond that judges it
+constexpr Eigen::Index most_powers = 4;  // powers of the series, and of the one beyond that judges it
 
 /// The squares that are left of places of one marker when it rests until t0 and then goes on in even powers of the
 /// time since, 2 to 2 `powers`, as whatever falls from rest does; each coordinate by itself. (V19)
 double squares_left(const std::vector<double>& time, const std::vector<Eigen::Vector2d>& place, double t0,
                     Eigen::Index powers) {
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most + 1, most + 1> normal;
-  Eigen::Matrix<double, Eigen::Dynamic, 2, 0, most + 1, 2> right;
-  Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most + 1, 1> basis(powers + 1);
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most_powers + 1, most_powers + 1> normal;
+  Eigen::Matrix<double, Eigen::Dynamic, 2, 0, most_powers + 1, 2> right;
+  Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most_powers + 1, 1> basis(powers + 1);
   normal.setZero(powers + 1, powers + 1);
   right.setZero(powers + 1, 2);
   const double unit = time.back() - t0;
@@ -63,7 +63,7 @@ Instant judged_instant(const std::vector<double>& time, const std::vector<Eigen:
   for (Eigen::Index powers = 3;; ++powers) {
     const Instant next = instant_of(time, place, powers);
     const bool goes_on = (now.squares - next.squares) / 2 > shown * next.squares / next.freedoms;
-    if (!goes_on || powers == most) {
+    if (!goes_on || powers == most_powers) {
       now.deviation = std::hypot(now.deviation, next.at - now.at);
       return now;
     }
