@@ -15,6 +15,7 @@
 #include "fit/offset.hpp"
 #include "froude/commands.hpp"
 #include "froude/kinematics_bodies.hpp"
+#include "froude/kinematics_sightings.hpp"
 #include "froude/kinematics_space.hpp"
 #include "froude/option.hpp"
 #include "froude/outputs.hpp"
@@ -259,8 +260,12 @@ void kinematics(const KinematicsArguments& a, const Console& console) {
                                 option_si("--bandwidth", a.bandwidth, dim::angular_velocity) / (2 * std::numbers::pi)};
   for (const std::string& length : a.lengths) options.lengths.push_back(known_length(length));
   const TrackInPlane in_plane = track_in_plane(scene, film.model, film.record);
-  const fc::SmoothTrack track =
-      scene::placed({.file = film.record.file.value.string()}, [&] { return fc::smooth(in_plane.places, options); });
+  std::vector<std::string> notes;
+  const fc::SmoothTrack track = scene::placed({.file = film.record.file.value.string()}, [&] {
+    FittingSightings fitting = fitting_sightings(in_plane, options.bandwidth_hz);
+    notes = std::move(fitting.notes);
+    return fc::smooth(fitting.places, options);
+  });
   std::vector<SmoothedColumn> columns;
   const auto take = [&](std::vector<SmoothedColumn> more) {
     std::move(more.begin(), more.end(), std::back_inserter(columns));
@@ -300,6 +305,7 @@ void kinematics(const KinematicsArguments& a, const Console& console) {
              fact("bandwidth_hz", options.bandwidth_hz), fact("cutoff_hz", track.cutoff_hz),
              fact("lengths", options.lengths.size()),
              track.rounds > 0 ? fmt::format(", straight after {} rounds", track.rounds) : "");
+  report.sentences("notes", "note: {}", notes);
   for (const SmoothedColumn& c : columns)
     report.row("column", "  {} [{}]: mean standard deviation {:.3g}", fact("name", c.name), fact("unit", c.unit),
                fact("mean_deviation", mean_of(c.deviation)));

@@ -116,6 +116,41 @@ std::vector<FilmedInSpace> bodies_in_space(const scene::Scene& scene, const OneC
   return out;
 }
 
+/// Frames by their times, as many as a screen takes.
+std::string times_of(const std::vector<std::size_t>& frames, const FilmedTrack& film) {
+  constexpr std::size_t most = 8;
+  std::vector<std::string> out;
+  for (const std::size_t i : frames)
+    if (out.size() < most) out.push_back(fmt::format("{:.6g} s", film.track.time[i] + film.begin));
+  if (frames.size() > most) out.push_back(fmt::format("{} more", frames.size() - most));
+  return fmt::format("{}", fmt::join(out, ", "));
+}
+
+/// \throws hydro::InputError where pixels of so many frames fit no pose that no poses can be believed
+void refuse_misfits(const FilmedInSpace& b, const OneCamera& camera) {
+  constexpr std::size_t one_in = 10;  // single wrong sightings are fewer; of a clean film it is none
+  const auto told = static_cast<std::size_t>(
+      std::count_if(b.poses.pose.begin(), b.poses.pose.end(), [](const auto& pose) { return pose.has_value(); }));
+  if (one_in * b.poses.misfits.size() <= told + b.poses.misfits.size()) return;
+  throw InputError(
+      fmt::format(
+          "in {} of {} frames the markers of \"{}\" lie farther from every pose than their deviation allows: {}",
+          b.poses.misfits.size(), told + b.poses.misfits.size(), b.body->name,
+          times_of(b.poses.misfits, camera.filmed)),
+      {.file = "--space"},
+      "state the deviation that the pixels have; or the markers' names or their places on the body, the lens or the "
+      "pose of the camera are wrong");
+}
+
+void say_misfits(const std::vector<FilmedInSpace>& bodies, const OneCamera& camera, Report& report) {
+  std::vector<std::string> notes;
+  for (const FilmedInSpace& b : bodies)
+    if (!b.poses.misfits.empty())
+      notes.push_back(fmt::format("markers of \"{}\" fit no pose at {}: are names exchanged, or is a sighting wrong?",
+                                  b.body->name, times_of(b.poses.misfits, camera.filmed)));
+  report.sentences("misfits", "note: {}", notes);
+}
+
 void six_motions(const KinematicsArguments& a, Report& report) {
   const scene::FitScene fit = scene::read_fit(a.scene);
   const FilmAsked film = film_asked(fit, a.film);
@@ -123,19 +158,27 @@ void six_motions(const KinematicsArguments& a, Report& report) {
   const scene::Scene scene = scene::read(film.scene_of_motion());
   const auto bodies = bodies_in_space(scene, camera);
   std::vector<std::string> columns;
-  for (const auto& b : bodies)
+  for (const auto& b : bodies) {
+    refuse_misfits(b, camera);
     for (std::size_t k = 0; k < 6; ++k)
       for (const char* of : {"", "_deviation"})
         columns.push_back(fmt::format("{}.{}{} [{}]", b.body->name, hydro::mode_names[k], of, k < 3 ? "m" : "rad"));
+    columns.push_back(fmt::format("{}.misfit [1]", b.body->name));
+  }
   TableWithGaps table(columns);
   std::vector<Vector3d> angles(bodies.size(), Vector3d::Zero());
   for (std::size_t i = 0; i < camera.filmed.track.frames(); ++i) {
     table.time(camera.filmed.track.time[i]);
-    for (std::size_t b = 0; b < bodies.size(); ++b)
+    for (std::size_t b = 0; b < bodies.size(); ++b) {
       if (const auto& pose = bodies[b].poses.pose[i])
         table.add(motions_of(*pose, *bodies[b].body, angles[b]));
       else
         table.gap(12);
+      if (const double stray = bodies[b].poses.stray[i]; std::isfinite(stray))
+        table.add({stray});
+      else
+        table.gap(1);
+    }
   }
   table.write(a.output);
   for (const auto& b : bodies) {
@@ -150,6 +193,7 @@ void six_motions(const KinematicsArguments& a, Report& report) {
                fact("too_few", b.poses.too_few), fact("ambiguous", b.poses.ambiguous), fact("lost", b.poses.lost),
                fact("stray", frames > 0 ? std::sqrt(squares / frames) : 0.0));
   }
+  say_misfits(bodies, camera, report);
 }
 
 /// The name of the other film, where a scene has two.
@@ -221,10 +265,10 @@ void places_by_two(const KinematicsArguments& a, Report& report) {
     const Vector3d sd = (variance / frames).cwiseSqrt();
     report.row("marker",
                "{}: in {} frames, standard deviations {:.2g}, {:.2g} and {:.2g} m along x, y and z; rays pass each "
-               "other by {:.2g} of their errors",
+               "other by {:.2g} of their errors, between frames of the second film {:.3g} s apart",
                fact("name", points.markers[m]), fact("frames", frames), fact("deviation_x_m", sd.x()),
-               fact("deviation_y_m", sd.y()), fact("deviation_z_m", sd.z()),
-               fact("stray", std::sqrt(squares / frames)));
+               fact("deviation_y_m", sd.y()), fact("deviation_z_m", sd.z()), fact("stray", std::sqrt(squares / frames)),
+               fact("second_spacing_s", points.spacing));
   }
 }
 

@@ -1,5 +1,6 @@
 """What a scene, a study, a record or a file of coefficients is asked."""
 import json
+import numbers as numbers_of_python
 import os
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Optional, Union
@@ -22,7 +23,24 @@ def _plain(values: Optional[Mapping[str, Value]]) -> dict:
 
 
 def _scene(scene: AnyScene) -> _froude.Scene:
-    return scene if isinstance(scene, _froude.Scene) else read(scene)
+    if isinstance(scene, _froude.Scene):
+        return scene
+    return read(_path("scene", scene, "a scene of froude.read() or froude.read_text(), or the path of a scene"))
+
+
+def _path(argument: str, value: Any, needed: str) -> FileName:
+    if not isinstance(value, (str, os.PathLike)):
+        raise TypeError(f"{argument} = {value!r} is no path: give {needed}")
+    return value
+
+
+def _number(argument: str, value: Optional[float], needed: str) -> Optional[float]:
+    """None where it is left out; numbers of numpy are numbers."""
+    if value is None or (isinstance(value, numbers_of_python.Real) and not isinstance(value, bool)):
+        return value
+    if getattr(value, "ndim", None) == 0:
+        return _number(argument, value.item(), needed)
+    raise TypeError(f"{argument} = {value!r} is no number: give {needed}")
 
 
 def read(file: FileName, set: Optional[Mapping[str, Value]] = None, *,
@@ -463,4 +481,8 @@ def coefficients(file: FileName, *, density: Optional[float] = None, gravity: Op
     InputError
         With file, line and remedy.
     """
-    return _froude.coefficients(file, density, gravity, depth, ulen, iperout)
+    return _froude.coefficients(
+        _path("file", file, "the path of a file of coefficients, or of its folder"),
+        _number("density", density, "kg/m^3"), _number("gravity", gravity, "m/s^2"),
+        _number("depth", depth, "metres, math.inf for deep water"), _number("ulen", ulen, "metres"),
+        _number("iperout", iperout, "1, 2, 3 or 4"))

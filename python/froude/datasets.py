@@ -110,7 +110,7 @@ def of_densities(of: _froude.Densities) -> "xarray.Dataset":
             for end, factor in zip(("low", "high"), of.band):
                 data[f"{name}_{end}"] = (along, factor * one.density, _attributes(
                     one.density_unit, f"{end} end of the {100 * of.confidence:g} % band of {name}"))
-    return _xarray().Dataset(data, axes, _about(of, "spectra"))
+    return _xarray().Dataset(data, axes, _about(of, "psd" if of.confidence > 0 else "response"))
 
 
 def of_coefficients(c: _froude.Coefficients) -> "xarray.Dataset":

@@ -1,6 +1,7 @@
 """Random seas by the names of their spectra."""
 import json
 import math
+import re
 from collections.abc import Mapping
 from typing import Tuple, Union
 
@@ -23,19 +24,34 @@ def _value(kind: str, key: str, value: Parameter) -> str:
     return number if unit is None else json.dumps(f"{number} {unit}")
 
 
+def _of_argument(message: str, text: str, given: Mapping[str, str]) -> str:
+    """An error at a line of this text as one of the argument that wrote it: "Hs: error: ...; remedy"."""
+    found = re.match(r".*scene\.toml:(\d+):\d+: (error: [^\n]*)(.*)", message, re.S)
+    if found is None:
+        return message
+    key = text.split("\n")[int(found.group(1)) - 1].split(" = ")[0]
+    remedy = found.group(3).split("^")[-1].strip()
+    return f"{given.get(key, key)}: {found.group(2)}" + (f"; {remedy}" if remedy else "")
+
+
 def _scene(kind: str, parameters: Mapping[str, Parameter], depth: float, gravity: float, folder: FileName,
            heading: float = 0.0, at: Tuple[float, float] = (0.0, 0.0), duration: float = 1.0,
            step: float = 1.0) -> _froude.Scene:
-    """A scene of that sea alone, with a gauge."""
+    """A scene of that sea alone, with a gauge. What is wrong with it is told of the argument, not of this text."""
     deep = "infinite" if math.isinf(depth) else f"{float(depth)!r} m"
     keys = {**{key.lower(): value for key, value in parameters.items()}, "heading": heading}
     lines = [f"{key} = {_value(kind, key, value)}" for key, value in keys.items() if value is not None]
-    return read_text("\n".join([
+    text = "\n".join([
         "schema = 1",
         "[waves]", f"kind = {json.dumps(kind)}", *lines,
         "[water]", 'density = "1025 kg/m^3"', f'gravity = "{float(gravity)!r} m/s^2"', f"depth = {json.dumps(deep)}",
         "[[probe]]", 'name = "gauge"', f'at = "({float(at[0])!r}, {float(at[1])!r}, 0) m"',
-        "[ask]", f'waves = {{ duration = "{float(duration)!r} s", every = "{float(step)!r} s" }}', ""]), folder)
+        "[ask]", f'waves = {{ duration = "{float(duration)!r} s", every = "{float(step)!r} s" }}', ""])
+    try:
+        return read_text(text, folder)
+    except _froude.InputError as error:
+        given = {**{key.lower(): key for key in parameters}, "heading": "heading"}
+        raise _froude.InputError(_of_argument(str(error), text, given)) from None
 
 
 def spectrum(kind: str, *, depth: float = math.inf, gravity: float = 9.81, folder: FileName = ".",

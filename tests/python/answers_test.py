@@ -218,3 +218,14 @@ step = "0.025 s"
         froude.cost(froude.read_text(text, tmp_path), measure="rmse")
     with pytest.raises(froude.InputError, match="was changed"):
         froude.cost(froude.read_text(text, tmp_path).with_values({"body.m.mass": 3.0}))
+
+
+def test_arguments_that_cannot_be_are_named_with_a_remedy(examples):
+    with pytest.raises(TypeError, match=r"scene = None is no path: give a scene of froude\.read\(\)"):
+        froude.run(None)
+    with pytest.raises(TypeError, match="depth = 'infinite' is no number: give metres, math.inf for deep water"):
+        froude.coefficients(examples / "data" / "hemisphere_r5.1", density=1025, gravity=9.81, depth="infinite")
+    with pytest.raises(froude.InputError, match=r'^Hs: error: \[waves\] hs = "-2.0 m" must be positive'):
+        froude.spectrum("jonswap", Hs=-2.0, Tp=8.0)
+    with pytest.raises(froude.InputError, match='^kind: error: .*; did you mean "jonswap"'):
+        froude.spectrum("jonswp", Hs=2.0, Tp=8.0)

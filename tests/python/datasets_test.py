@@ -82,3 +82,9 @@ def test_without_xarray_there_is_a_remedy(examples, monkeypatch):
     monkeypatch.setitem(sys.modules, "xarray", None)
     with pytest.raises(ImportError, match="python3-xarray"):
         froude.modes(examples / "modes.toml").to_xarray()
+
+
+def test_sources_are_the_commands_that_tell_them(examples):
+    assert froude.response(examples / "seastate.toml").to_xarray().attrs["source"] == "froude response"
+    time = np.arange(0, 600, 0.5)
+    assert froude.psd({"time": time, "a": np.sin(time) + np.cos(1.7 * time)}).to_xarray().attrs["source"] == "froude psd"

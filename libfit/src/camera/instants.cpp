@@ -1,6 +1,6 @@
 #include "fit/camera/instants.hpp"
 
-#include <Eigen/LU>
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -14,22 +14,61 @@ namespace {
 
 using hydro::InputError;
 
+constexpr Eigen::Index most_powers = 4;  // powers of the series, and of the one beyond that judges it
+
 /// The squares that are left of places of one marker when it rests until t0 and then goes on in even powers of the
-/// time since, as whatever falls from rest does; each coordinate by itself. (V19)
-double squares_left(const std::vector<double>& time, const std::vector<Eigen::Vector2d>& place, double t0) {
-  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
-  Eigen::Matrix<double, 3, 2> right = Eigen::Matrix<double, 3, 2>::Zero();  // a column a coordinate
-  const double unit = time.back() - time.front();
+/// time since, 2 to 2 `powers`, as whatever falls from rest does; each coordinate by itself. (V19)
+double squares_left(const std::vector<double>& time, const std::vector<Eigen::Vector2d>& place, double t0,
+                    Eigen::Index powers) {
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most_powers + 1, most_powers + 1> normal;
+  Eigen::Matrix<double, Eigen::Dynamic, 2, 0, most_powers + 1, 2> right;
+  Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most_powers + 1, 1> basis(powers + 1);
+  normal.setZero(powers + 1, powers + 1);
+  right.setZero(powers + 1, 2);
+  const double unit = time.back() - t0;
   double squares = 0;
   for (std::size_t i = 0; i < time.size(); ++i) {
-    const double since = std::max(0.0, time[i] - t0) / unit, square = since * since;
-    const Eigen::Vector3d basis(1, square, square * square);
+    const double since = std::max(0.0, time[i] - t0) / unit;
+    for (Eigen::Index k = 0; k <= powers; ++k) basis[k] = k == 0 ? 1 : basis[k - 1] * since * since;
     const Eigen::Vector2d from = place[i] - place[0];
     normal += basis * basis.transpose();
     right += basis * from.transpose();
     squares += from.squaredNorm();
   }
-  return squares - (right.transpose() * normal.inverse() * right).trace();
+  return squares - (right.transpose() * normal.ldlt().solve(right)).trace();
+}
+
+/// The instant at which least is left over with so many powers.
+struct Instant {
+  double at, deviation, squares;
+  double freedoms;  ///< numbers that are left over
+};
+Instant instant_of(const std::vector<double>& time, const std::vector<Eigen::Vector2d>& place, Eigen::Index powers) {
+  const double step = median_step(time) / 20, h = 4 * step;
+  const auto left = [&](double t0) { return squares_left(time, place, t0, powers); };
+  Instant out{time[0], 0, std::numeric_limits<double>::infinity(),
+              2 * static_cast<double>(time.size()) - 2 * static_cast<double>(powers) - 3};
+  for (double t0 = time[0] - 4 * 20 * step; t0 < time[time.size() - 2]; t0 += step)
+    if (const double now = left(t0); now < out.squares) out.squares = now, out.at = t0;
+  const double bend = (left(out.at + h) - 2 * out.squares + left(out.at - h)) / (h * h);
+  out.deviation = std::sqrt(2 * out.squares / out.freedoms / std::max(bend, 1e-300) + step * step / 12);
+  return out;
+}
+
+/// (V19) The series goes on as far as the places show it; what one power more would make of the instant is counted as
+/// an error of where it ends.
+Instant judged_instant(const std::vector<double>& time, const std::vector<Eigen::Vector2d>& place) {
+  constexpr double shown = 9;  // mean square of two numbers over that of noise: e^-9, one in some thousand by chance
+  Instant now = instant_of(time, place, 2);
+  for (Eigen::Index powers = 3;; ++powers) {
+    const Instant next = instant_of(time, place, powers);
+    const bool goes_on = (now.squares - next.squares) / 2 > shown * next.squares / next.freedoms;
+    if (!goes_on || powers == most_powers) {
+      now.deviation = std::hypot(now.deviation, next.at - now.at);
+      return now;
+    }
+    now = next;
+  }
 }
 
 }  // namespace
@@ -62,11 +101,8 @@ Release release_of(const Track& track, std::string_view name) {
   n = std::min(place.size(), n + 3);
   time.resize(n);
   place.resize(n);
-  double best = time[0], least = std::numeric_limits<double>::infinity();
-  const double step = median_step(time) / 20;
-  for (double t0 = time[0] - 4 * 20 * step; t0 < time[n - 2]; t0 += step)
-    if (const double left = squares_left(time, place, t0); left < least) least = left, best = t0;
-  const auto at_rest = std::count_if(time.begin(), time.end(), [&](double t) { return t < best; });
+  const Instant begun = judged_instant(time, place);
+  const auto at_rest = std::count_if(time.begin(), time.end(), [&](double t) { return t < begun.at; });
   const std::ptrdiff_t moving = std::ssize(time) - at_rest;
   if (at_rest < 5 || moving < 4)
     throw InputError(
@@ -74,10 +110,7 @@ Release release_of(const Track& track, std::string_view name) {
                     "tell its release",
                     name, at_rest, moving),
         {}, "film from before the release, with more frames a second");
-  const double h = 4 * step,
-               bend = (squares_left(time, place, best + h) - 2 * least + squares_left(time, place, best - h)) / (h * h);
-  const double noise = least / (2 * static_cast<double>(n) - 7);
-  return {best, std::sqrt(2 * noise / std::max(bend, 1e-300) + step * step / 12)};
+  return {begun.at, begun.deviation};
 }
 
 }  // namespace fit::camera

@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "dynamics/spatial/rotation.hpp"
 #include "gauss_newton.hpp"
 #include "hydro/base/dense.hpp"
 #include "hydro/base/error.hpp"
+#include "hydro/signal/distributions.hpp"
 
 namespace fit::camera {
 namespace {
@@ -124,6 +126,14 @@ void check_markers(const Track& track, const std::vector<MarkerInSpace>& markers
   hydro::require(across[1] > thin * across[2], "the markers on a body lie on one line, which tells no turn about it");
 }
 
+/// (V33) Whether chance makes the pixels of one of so many frames miss their pose by that.
+bool by_chance(const SpacePose& pose, std::size_t markers, std::size_t frames) {
+  constexpr double clean = 0.99;
+  const auto freedoms = static_cast<double>(2 * markers - 6);
+  return pose.stray * pose.stray * freedoms <
+         hydro::signal::chi_square_quantile(std::pow(clean, 1 / static_cast<double>(frames)), freedoms);
+}
+
 }  // namespace
 
 Vector2d pixel_of(const Eye& eye, const Vector3d& point) {
@@ -150,6 +160,7 @@ SpacePoses poses_in_space(const Track& track, const Eye& eye, const std::vector<
   SpacePose last{place, Eigen::Quaterniond::Identity(), {}, 0};
   for (std::size_t i = 0; i < track.frames(); ++i) {
     out.pose.emplace_back();
+    out.stray.push_back(std::numeric_limits<double>::quiet_NaN());
     std::vector<SeenOnBody> seen;
     for (const auto& m : markers)
       if (const auto& s = track.marker(m.marker).seen[i])
@@ -167,10 +178,16 @@ SpacePoses poses_in_space(const Track& track, const Eye& eye, const std::vector<
     if (std::optional<SpacePose> other = downhill(eye, seen, mirrored(eye, seen, *best), other_squares);
         other && !alike(*best, *other)) {
       if (other_squares < squares) std::swap(best, other), std::swap(squares, other_squares);
-      if (other_squares - squares < as_likely) {
+      if (other_squares - squares < as_likely && by_chance(*best, seen.size(), track.frames())) {
         ++out.ambiguous;
         continue;
       }
+    }
+    out.stray.back() = best->stray;
+    if (!by_chance(*best, seen.size(), track.frames())) {
+      ++out.lost;
+      out.misfits.push_back(i);
+      continue;
     }
     last = *best;
     out.pose.back() = best;
@@ -242,15 +259,53 @@ std::optional<FramesAround> between_frames(const std::vector<double>& times, dou
   return out;
 }
 
-std::optional<Sighting> sighting_at(const Marker& marker, const FramesAround& at, double deviation) {
+/// (V34) Mean square of the fourth divided difference of a marker's path over five frames in a row, without what errors
+/// of sightings make of it: what a cubic through four of them misses is that times the distances from all four. None
+/// where no five frames are there.
+std::optional<Eigen::Matrix2d> bends_of(const Marker& marker, const std::vector<double>& times, double deviation) {
+  Eigen::Matrix2d sum = Eigen::Matrix2d::Zero(), noise = Eigen::Matrix2d::Zero();
+  int stencils = 0;
+  for (std::size_t first = 0; first + 5 <= times.size(); ++first) {
+    Vector2d bend = Vector2d::Zero();
+    Eigen::Matrix2d errors = Eigen::Matrix2d::Zero();
+    bool whole = true;
+    for (std::size_t j = 0; j < 5 && whole; ++j) {
+      const auto& s = marker.seen[first + j];
+      whole = s.has_value();
+      if (!whole) break;
+      double weight = 1;
+      for (std::size_t k = 0; k < 5; ++k)
+        if (k != j) weight /= times[first + j] - times[first + k];
+      bend += weight * s->at;
+      errors += weight * weight * errors_of(*s, marker.name, deviation);
+    }
+    if (!whole) continue;
+    sum += bend * bend.transpose();
+    noise += errors;
+    ++stencils;
+  }
+  if (stencils == 0) return std::nullopt;
+  const auto all = static_cast<double>(stencils);
+  if (sum.trace() <= noise.trace()) return Eigen::Matrix2d::Zero();
+  return (sum.trace() - noise.trace()) / sum.trace() / all * sum;
+}
+
+std::optional<Sighting> sighting_at(const Marker& marker, const std::vector<double>& times, double time,
+                                    const FramesAround& at, const std::optional<Eigen::Matrix2d>& bends,
+                                    double deviation) {
   Sighting out{Vector2d::Zero(), Eigen::Matrix2d::Zero()};
+  double distances = 1;
   for (std::size_t k = 0; k < 4; ++k) {
+    distances *= time - times[at.first + k];
     if (at.weight[k] == 0) continue;  // a frame of its own
     const auto& s = marker.seen[at.first + k];
     if (!s) return std::nullopt;
     out.at += at.weight[k] * s->at;
     out.covariance += at.weight[k] * at.weight[k] * errors_of(*s, marker.name, deviation);
   }
+  if (distances == 0) return out;
+  if (!bends) return std::nullopt;  // nothing tells what the cubic misses
+  out.covariance += distances * distances * *bends;
   return out;
 }
 
@@ -262,15 +317,19 @@ SpaceTrack joined(const SeenByEye& first_camera, const SeenByEye& second_camera)
   check_pixels(second, second_camera.eye);
   SpaceTrack out;
   out.time = first.time;
+  out.spacing =
+      second.frames() < 2 ? 0 : (second.time.back() - second.time.front()) / static_cast<double>(second.frames() - 1);
   for (const Marker& a : first.markers) {
     const auto b =
         std::find_if(second.markers.begin(), second.markers.end(), [&](const Marker& m) { return m.name == a.name; });
     if (b == second.markers.end()) continue;
     out.markers.push_back(a.name);
     auto& points = out.point.emplace_back(first.frames());
+    const auto bends = bends_of(*b, second.time, second_camera.deviation);
     for (std::size_t i = 0; i < first.frames(); ++i) {
       const auto at = between_frames(second.time, first.time[i]);
-      const auto other = at ? sighting_at(*b, *at, second_camera.deviation) : std::nullopt;
+      const auto other =
+          at ? sighting_at(*b, second.time, first.time[i], *at, bends, second_camera.deviation) : std::nullopt;
       if (!a.seen[i] || !other) continue;
       const Sighting own{a.seen[i]->at, errors_of(*a.seen[i], a.name, first_camera.deviation)};
       points[i] = triangulated(first_camera.eye, own, second_camera.eye, *other);

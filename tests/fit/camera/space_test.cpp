@@ -129,6 +129,25 @@ TEST(PosesInSpace, AreThoseOfTheBody) {
   }
 }
 
+TEST(PosesInSpace, AreNotToldWherePixelsFitNone) {
+  const Eye eye = eye_of(view_of_board(false), 0, 0);
+  const double sd = 0.3;
+  Track track = filmed(eye, on_body, 100, sd, 6);
+  // One in a hundred clean films has such a frame; this one has none.
+  EXPECT_EQ(poses_in_space(track, eye, on_body, {0.4, 0, 1}, sd).misfits.size(), 0U);
+  std::swap(track.markers[0].seen[40], track.markers[2].seen[40]);
+  track.markers[3].seen[70]->at.x() += 20;
+  const auto poses = poses_in_space(track, eye, on_body, {0.4, 0, 1}, sd);
+  EXPECT_THAT(poses.misfits, testing::ElementsAre(40, 70));
+  EXPECT_EQ(poses.lost, 2);
+  for (const std::size_t i : {40U, 70U}) {
+    EXPECT_FALSE(poses.pose[i]) << i;
+    EXPECT_GT(poses.stray[i], 4) << i;  // of two numbers left over, sqrt(2 ln 1e4 / 2) is 3.0
+  }
+  EXPECT_TRUE(poses.pose[41]);
+  EXPECT_TRUE(poses.pose[71]);
+}
+
 TEST(PosesInSpace, KnowTheirErrors) {
   const Eye eye = eye_of(view_of_board(false), 0, 0);
   const double sd = 0.3;
@@ -284,6 +303,24 @@ TEST(Joined, TakesUnevenFramesOfTwoCamerasThatAreNotInStep) {
   // The second camera sees from its second frame to the one before its last: 0.05 s to 1.70 s; four frames about the
   // one that is missing are left out.
   EXPECT_NEAR(points, 83 - 4, 2);
+}
+
+TEST(Joined, KnowsWhatItMissesBetweenFramesThatAreFarApart) {
+  const Eye left = beside(-0.3), right = beside(0.3);
+  // A fifth of a second between frames of a motion of up to 5 rad/s: the cubic misses 3/128 of it, 2 mm or 1 px.
+  const auto out = joined({by_eye(left, 0, 200, 0.02, 0), left, 0.2}, {by_eye(right, 0, 20, 0.2, 0), right, 0.2});
+  double squares = 0;
+  int points = 0;
+  for (std::size_t i = 0; i < out.time.size(); ++i) {
+    if (!out.point[0][i]) continue;
+    const Vector3d off = out.point[0][i]->at - way(out.time[i]);
+    squares += off.dot(out.point[0][i]->covariance.inverse() * off) / 3;
+    ++points;
+  }
+  EXPECT_NEAR(out.spacing, 0.2, 1e-12);
+  ASSERT_GT(points, 150);
+  // Without noise it is below 1; without the error of the cubic it is tens: 1 px over 0.2 px, squared.
+  EXPECT_LT(squares / points, 1);
 }
 
 TEST(Joined, OfAClockThatIsLateStrays) {

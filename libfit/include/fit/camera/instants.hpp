@@ -8,7 +8,7 @@ namespace fit::camera {
 
 struct Release {
   double at;         ///< s, of the track
-  double deviation;  ///< s, standard
+  double deviation;  ///< s, standard; holds what one more power of the time since would change
 };
 
 /// When a marker that has been at rest begins to move, as one does that is let go: in even powers of the time since,
