@@ -98,8 +98,9 @@ Unit parse_factor(std::string_view text) {
     for (const Symbol& s : symbols) known.emplace_back(s.name);
     const std::string near = nearest(text, known);
     throw InputError(fmt::format("\"{}\" is not a unit: {}", text, why), {},
-                     near.empty() ? "known are SI units with prefixes, deg, Hz, rpm, t, bar, knot, min, h, ft, lb, lbf, kgf"
-                                  : fmt::format("did you mean \"{}\"?", near));
+                     near.empty()
+                         ? "known are SI units with prefixes, deg, Hz, rpm, t, bar, knot, min, h, ft, lb, lbf, kgf"
+                         : fmt::format("did you mean \"{}\"?", near));
   };
   if (text.empty()) fail("a symbol is missing");
   if (const auto unit = find_symbol(text)) return *unit;

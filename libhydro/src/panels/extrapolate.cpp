@@ -106,7 +106,8 @@ std::vector<double> cubic_weights(const std::vector<double>& nodes, double x, in
   std::vector<std::size_t> used;
   for (std::size_t i = 0; i < nodes.size(); ++i)
     if (static_cast<int>(i) != without) used.push_back(i);
-  // Two on each side of x, as far as there are: nodes that crowd about a resonance are not taken for what lies beside it.
+  // Two on each side of x, as far as there are: nodes that crowd about a resonance are not taken for what lies beside
+  // it.
   const auto above = std::partition_point(used.begin(), used.end(), [&](std::size_t i) { return nodes[i] < x; });
   const std::ptrdiff_t left = std::max<std::ptrdiff_t>(above - used.begin() - 2, 0);
   const std::ptrdiff_t count = std::min<std::ptrdiff_t>(std::ssize(used), 4);
