@@ -130,7 +130,7 @@ class Dialects(WithFolder):
                 ("times that go back", self.as_text(";", names=self.names, rows=backwards), "times must increase"),
                 ("no time", self.as_text(";", names=self.names, rows=self.rows[:9] + [["NaN", *self.rows[9][1:]]]), "needs its time"),
                 ("a row cut off", self.as_text(";", names=self.names) + "12,1;3\n", "7 columns are named"),
-                ("words", self.as_text(";", names=self.names) + "12,1;lost;;;;;\n", "is no number"),
+                ("words", self.as_text(";", names=self.names) + "12.1;lost;;;;;\n", "is no number"),
                 ("names alone", ";".join(self.names) + "\n", "no row of numbers"),
                 ("nothing", "", "the track is empty"),
                 ("no marker", self.as_text(";", names=["t", "a", "b", "c", "d", "e", "f"]), "[[camera.marker]]"),
