@@ -145,7 +145,8 @@ TEST_F(Psd, ExtremesAreThoseOfThePeaksAndOfTheirMirror) {
   EXPECT_THAT([&] { in("30 s", {}); },
               ThrowsMessage<InputError>(testing::AllOf(HasSubstr("--duration"), HasSubstr("holds 0.7"))));
   EXPECT_THAT([&] { in("60 s", {0.1}); }, ThrowsMessage<InputError>(HasSubstr("for the quantile 0.1")));
-  for (const auto& e : in("60 s", {0.5})["estimates"]) EXPECT_TRUE(e["level"].is_number());  // and no null for −∞
+  const nlohmann::json short_time = in("60 s", {0.5});
+  for (const auto& e : short_time["estimates"]) EXPECT_TRUE(e["level"].is_number());  // and no null for −∞
 }
 
 // A spike of the sensor would be the largest value of all, 6 m above waves of 1.5 m.

@@ -46,6 +46,8 @@ double true_error(const froude::Run& run) {
   return std::sqrt(off / all);
 }
 
+constexpr double safety = 1.25;  // by which errors are told larger than the first term of their series (E1)
+
 TEST(Estimate, TellsTheErrorOfAStepThatTheSceneGives) {
   // The phase is off by (omega h)^2/12 of omega t: at 20 swings, h = 0.02 s, 0.017 rad; rms over the run 0.0097.
   // Generalised-alpha with rho_infinity = 1 is of order 2 there, and the extrapolation is off by the next order, (omega
@@ -56,7 +58,7 @@ TEST(Estimate, TellsTheErrorOfAStepThatTheSceneGives) {
                                       " s\"\nintegrator = { name = \"generalized_alpha\", rho_infinity = 1 }\n")));
     ASSERT_EQ(run.error.sources.size(), 1);
     EXPECT_EQ(run.step, step);
-    EXPECT_NEAR(run.error.total(0) / true_error(run), 1, 0.1) << step;
+    EXPECT_NEAR(run.error.total(0) / (safety * true_error(run)), 1, 0.1) << step;
     const double phase = std::pow(2 * step, 2) / 12 * 2 * run.time.back();
     EXPECT_NEAR(true_error(run), phase / std::numbers::sqrt3, 0.1 * phase);
   }
@@ -67,7 +69,8 @@ TEST(Estimate, RefinesTheStepUntilTheErrorIsWithinWhatIsAsked) {
     const auto run = simulate(parse(sledge("accuracy = " + std::to_string(asked) + "\n")));
     EXPECT_LE(true_error(run), asked);
     EXPECT_LE(run.error.total(0), asked);
-    EXPECT_NEAR(run.error.total(0) / true_error(run), 1, 0.3) << asked;  // phases of long steps saturate
+    // Phases of long steps saturate.
+    EXPECT_NEAR(run.error.total(0) / (safety * true_error(run)), 1, 0.3) << asked;
     EXPECT_THAT(run.warnings(), IsEmpty());
     EXPECT_THAT(run.accuracy(), HasSubstr("(sledge.surge), by the step"));
   }
@@ -226,7 +229,7 @@ TEST(Estimate, BoundsTheStandardDeviationAboutALargeMean) {
   EXPECT_NEAR(deviation_error(run), -0.03, 0.005);
   // What is left of the swing is e^(-c h), and the ratio is that of rms, which phases of 4 h saturate: next orders, 6 %
   // of either.
-  EXPECT_NEAR(run.error.total(0) / -deviation_error(run), 1, 0.2);
+  EXPECT_NEAR(run.error.total(0) / (safety * -deviation_error(run)), 1, 0.2);
   EXPECT_THAT(run.warnings(), testing::Contains(HasSubstr("standard deviation")));
   for (const double asked : {1e-1, 1e-2}) {
     const auto kept = simulate(parse(towed("accuracy = " + std::to_string(asked) + "\n")));
