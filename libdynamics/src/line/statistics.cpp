@@ -25,7 +25,8 @@ void TensionStatistics::note(double t_s, double h, Eigen::Ref<const Eigen::Vecto
     if (tension[j] > largest_.tension) largest_ = {tension[j], t_s, static_cast<int>(j)};
     if (tension[j] <= slack_below_) {
       slack_[j] += h;
-      any = armed_[at] = true;
+      armed_[at] = true;
+      any = true;
     } else if (armed_[at] && tension[j] >= snap_above_) {
       armed_[at] = false;
       ++snaps_[at];
