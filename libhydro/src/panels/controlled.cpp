@@ -123,11 +123,14 @@ class Ladder {
   Estimate estimate(const Work& w, const std::vector<Extrapolated>& correction, const Sizes& size) const;
   double interpolation_error(const Work& w, const std::vector<Extrapolated>& correction, const Sizes& size) const;
   std::vector<double> roughness() const;
+  void find_known();
+  bool add_sample(std::size_t frequency);  // false if it is one
 
   const std::vector<double>&omega_, &heading_;
   const Options& options_;
   std::vector<Level> levels_;
-  std::vector<Extrapolated> scale_;  // at each frequency; empty: 1
+  std::vector<Extrapolated> scale_;               // at each frequency; empty: 1
+  std::vector<std::vector<OneFrequency>> known_;  // by the first mesh: [hull that stands alone][frequency]
   std::unique_ptr<const Solver> more_;
   std::vector<std::optional<OneFrequency>> more_waves_;
   std::vector<std::size_t> samples_;  // where meshes are refined, rising
@@ -176,6 +179,7 @@ void Ladder::solve() {
     if (options_.progress) options_.progress(done_, all);
   });
   if (scale_.empty()) find_scales();  // of the first mesh, which finer ones leave as it is
+  if (known_.empty() && !samples_all()) find_known();
 }
 
 Extrapolated Ladder::step(std::size_t frequency) const {
@@ -307,24 +311,30 @@ std::vector<double> Ladder::roughness() const {
   std::vector<Extrapolated> at_nodes;
   for (const std::size_t i : samples_) at_nodes.push_back(*first().at[i]);
   const std::vector<double> nodes = sample_omega();
-  std::vector<std::vector<OneFrequency>> known, interpolated;  // [hull that stands alone][frequency]
-  for (std::size_t i = 0; i < omega_.size(); ++i) {
-    const auto here = solver().alone(omega_[i], heading_, *first().at[i]);
-    const auto by_nodes = solver().alone(omega_[i], heading_, weighted(at_nodes, cubic_weights(nodes, omega_[i])));
-    known.resize(here.size());
-    interpolated.resize(here.size());
-    for (std::size_t k = 0; k < here.size(); ++k) {
-      known[k].push_back(here[k]);
-      interpolated[k].push_back(by_nodes[k]);
-    }
-  }
+  std::vector<Sizes> size;
+  for (const auto& of_hull : known_) size.push_back(sizes(of_hull, first().mesh->length()));
   std::vector<double> rough(omega_.size(), 0);
-  for (std::size_t k = 0; k < known.size(); ++k) {
-    const Sizes size = sizes(known[k], first().mesh->length());
-    for (std::size_t i = 0; i < omega_.size(); ++i)
-      rough[i] = std::max(rough[i], largest(sum(known[k][i], -1, interpolated[k][i]), size));
+  for (std::size_t i = 0; i < omega_.size(); ++i) {
+    const auto by_nodes = solver().alone(omega_[i], heading_, weighted(at_nodes, cubic_weights(nodes, omega_[i])));
+    for (std::size_t k = 0; k < known_.size(); ++k)
+      rough[i] = std::max(rough[i], largest(sum(known_[k][i], -1, by_nodes[k]), size[k]));
   }
   return rough;
+}
+
+void Ladder::find_known() {
+  for (std::size_t i = 0; i < omega_.size(); ++i) {
+    const auto here = solver().alone(omega_[i], heading_, *first().at[i]);
+    known_.resize(here.size());
+    for (std::size_t k = 0; k < here.size(); ++k) known_[k].push_back(here[k]);
+  }
+}
+
+bool Ladder::add_sample(std::size_t frequency) {
+  const auto place = std::lower_bound(samples_.begin(), samples_.end(), frequency);
+  if (place != samples_.end() && *place == frequency) return false;
+  samples_.insert(place, frequency);
+  return true;
 }
 
 bool Ladder::add_samples_where_rough(double most, std::size_t count) {
@@ -333,9 +343,7 @@ bool Ladder::add_samples_where_rough(double most, std::size_t count) {
     const std::vector<double> rough = roughness();
     const auto worst = std::max_element(rough.begin(), rough.end());
     const auto at = static_cast<std::size_t>(worst - rough.begin());
-    const auto place = std::lower_bound(samples_.begin(), samples_.end(), at);
-    if (*worst <= most || (place != samples_.end() && *place == at)) break;  // at a node nothing but rounding is missed
-    samples_.insert(place, at);
+    if (*worst <= most || !add_sample(at)) break;  // at a node nothing but rounding is missed
   }
   return samples_.size() > before;
 }
@@ -345,8 +353,7 @@ void Ladder::double_samples() {
   add_samples_where_rough(most_rough, count);
   for (const std::size_t i : potential::spread(omega_.size(), static_cast<int>(count), 0)) {
     if (samples_.size() >= count) break;
-    const auto place = std::lower_bound(samples_.begin(), samples_.end(), i);
-    if (place == samples_.end() || *place != i) samples_.insert(place, i);
+    add_sample(i);
   }
 }
 
