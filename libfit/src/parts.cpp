@@ -1,5 +1,6 @@
 #include "fit/parts.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "hydro/signal/distributions.hpp"
@@ -38,6 +39,16 @@ void count_slope(const SlopeError& slope, double sensitivity, Coefficient& c) {
   c.systematic_error = std::hypot(c.systematic_error, own);
   c.standard_error = std::hypot(c.standard_error, own);
   c.interval = with_slope(slope, sensitivity, c.value.value_or((c.interval.low + c.interval.high) / 2), c.interval);
+}
+
+Interval with_shift(double shift, const Interval& i) {
+  return {i.low + std::min(0.0, shift), i.high + std::max(0.0, shift)};
+}
+
+void count_shift(double shift, Coefficient& c) {
+  c.systematic_error = std::hypot(c.systematic_error, shift);
+  c.standard_error = std::hypot(c.standard_error, shift);
+  c.interval = with_shift(shift, c.interval);
 }
 
 }  // namespace fit

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "fit/parts.hpp"
 #include "hydro/base/dense.hpp"
 #include "simulated.hpp"
 
@@ -104,18 +105,12 @@ int division_needed(const StepError& error, const SimulationFit& fit) {
 }
 
 Interval with_steps(const StepError& error, std::size_t parameter, const Interval& interval) {
-  const double shift = error.shift[static_cast<Eigen::Index>(parameter)];
-  return {interval.low + std::min(0.0, shift), interval.high + std::max(0.0, shift)};
+  return with_shift(error.shift[static_cast<Eigen::Index>(parameter)], interval);
 }
 
 void count_steps(const StepError& error, SimulationFit& fit) {
-  for (std::size_t k = 0; k < fit.parameters.size(); ++k) {
-    Coefficient& c = fit.parameters[k];
-    if (!c.value) continue;
-    c.interval = with_steps(error, k, c.interval);
-    c.systematic_error = std::hypot(c.systematic_error, error.shift[static_cast<Eigen::Index>(k)]);
-    c.standard_error = std::hypot(c.standard_error, error.shift[static_cast<Eigen::Index>(k)]);
-  }
+  for (std::size_t k = 0; k < fit.parameters.size(); ++k)
+    if (fit.parameters[k].value) count_shift(error.shift[static_cast<Eigen::Index>(k)], fit.parameters[k]);
 }
 
 }  // namespace fit

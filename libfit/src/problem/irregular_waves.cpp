@@ -140,13 +140,6 @@ struct Heard {
   double passed, waves;
 };
 
-/// (F118) The interval reaches from where it is to where endlessly long segments would have it.
-void count_resolution(double shift, Coefficient& c) {
-  c.interval = {c.interval.low + std::min(0.0, shift), c.interval.high + std::max(0.0, shift)};
-  c.systematic_error = std::hypot(c.systematic_error, shift);
-  c.standard_error = std::hypot(c.standard_error, shift);
-}
-
 /// (S9) with the errors of both slopes (F105).
 Coefficient gain_at(const hs::TransferEstimate& t, std::size_t k, const SlopeError& slope, Heard heard,
                     double confidence) {
@@ -196,7 +189,7 @@ Response response_of(const Problem& problem, const Solution& so_far, std::size_t
     Coefficient& gain = out.gain[k];
     out.half_width.push_back(gain.value ? (gain.interval.high - gain.interval.low) / 2
                                         : std::numeric_limits<double>::quiet_NaN());
-    count_resolution(out.resolution[k], gain);
+    count_shift(out.resolution[k], gain);  // (F118)
   }
   return out;
 }
