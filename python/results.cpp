@@ -179,34 +179,32 @@ void add_water(py::module_& m) {
   add_dataset(type, "of_run", "xarray.Dataset along `time`; each signal has `units` and `long_name`.");
 }
 
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+
+template <class Of>
+py::array_t<double> of_each_mode(const Modes& modes, const Of& of) {
+  std::vector<double> out;
+  for (std::size_t i = 0; i < modes.count(); ++i) out.push_back(of(i));
+  return py::array_t<double>(static_cast<py::ssize_t>(out.size()), out.data());
+}
+
 void add_modes(py::module_& m) {
   py::class_<Modes> type(m, "Modes", "Free motions about rest, by rising frequency.");
   type.def_readonly("motions", &Modes::motions, "\"m1.surge\", ...: what the columns of `shape` are.")
       .def_property_readonly("omega", view_of(&Modes::omega), "Undamped, rad/s, shape (mode,).")
       .def_property_readonly(
-          "period",
-          [](const Modes& modes) {
-            std::vector<double> out;
-            for (std::size_t i = 0; i < modes.count(); ++i) out.push_back(modes.period(i));
-            return py::array_t<double>(static_cast<py::ssize_t>(out.size()), out.data());
-          },
+          "period", [](const Modes& modes) { return of_each_mode(modes, [&](auto i) { return modes.period(i); }); },
           "Undamped, s, shape (mode,).")
       .def_property_readonly(
           "damped_period",
           [](const Modes& modes) {
-            std::vector<double> out;
-            for (std::size_t i = 0; i < modes.count(); ++i)
-              out.push_back(modes.damped_period(i).value_or(std::numeric_limits<double>::quiet_NaN()));
-            return py::array_t<double>(static_cast<py::ssize_t>(out.size()), out.data());
+            return of_each_mode(modes, [&](auto i) { return modes.damped_period(i).value_or(not_a_number); });
           },
           "Of a decay, s, shape (mode,); NaN where the motion creeps back without swinging.")
       .def_property_readonly(
           "damping_ratio",
           [](const Modes& modes) {
-            std::vector<double> out;
-            for (std::size_t i = 0; i < modes.count(); ++i)
-              out.push_back(modes.damping_ratio(i).value_or(std::numeric_limits<double>::quiet_NaN()));
-            return py::array_t<double>(static_cast<py::ssize_t>(out.size()), out.data());
+            return of_each_mode(modes, [&](auto i) { return modes.damping_ratio(i).value_or(not_a_number); });
           },
           "Of the critical damping, shape (mode,); NaN where the motion creeps back without swinging.")
       .def_property_readonly(

@@ -114,7 +114,7 @@ Companions::Companions(const scene::Scene& scene, compile::Prepared prepared,
       checkpoints_(checkpoints),
       interruption_(interruption) {
   const scene::Solve& solve = scene.solve;
-  by_tolerance_ = solve.tolerance || compile::has_own_tolerance(solve.integrator);
+  by_tolerance_ = compile::has_steps_by_tolerance(solve);
   given_ = by_tolerance_ ? solve.tolerance.has_value() : solve.step.has_value();
   tolerance_ = solve.tolerance.value_or(compile::tolerance_of_pair);
   step_ = compile::choose_step(scene, prepared_).value;

@@ -65,7 +65,7 @@ class Stepping {
   }
 
   Ladder ladder() const {
-    const bool by_tolerance = scene_.solve.tolerance || compile::has_own_tolerance(scene_.solve.integrator);
+    const bool by_tolerance = compile::has_steps_by_tolerance(scene_.solve);
     Ladder out = by_tolerance ? by_tolerances() : by_steps();
     if (!by_tolerance && !scene_.bodies.empty()) add_integrators(out);
     if (free_lines_) add_methods_of_lines(out);

@@ -212,14 +212,6 @@ MeasuredRun MeasuredRun::read(const scene::FitScene& fit, const scene::MotionMod
   });
 }
 
-namespace {
-
-bool makes_steps_by_tolerance(const scene::Solve& solve) {
-  return solve.tolerance || compile::has_own_tolerance(solve.integrator);
-}
-
-}  // namespace
-
 void share_deviations(const std::vector<MeasuredRun*>& films) {  // (V12)
   Eigen::ArrayXd squares = Eigen::ArrayXd::Zero(std::ssize(films.front()->deviations));
   double frames = 0;
@@ -356,7 +348,7 @@ void SceneRuns::divide(scene::Solve& solve) const {
   if (divided_ == 1) return;
   const double levels = std::log2(divided_);
   if (solve.step) solve.step->value /= divided_;
-  if (makes_steps_by_tolerance(solve))
+  if (compile::has_steps_by_tolerance(solve))
     solve.tolerance = solve.tolerance.value_or(compile::tolerance_of_pair) * std::pow(10, -levels);
   solve.line_tolerance = scene::line_tolerance(scene_) * std::pow(4, -levels);
 }
@@ -374,7 +366,7 @@ bool SceneRuns::divide_steps(int by) {
 
 bool SceneRuns::own_steps() const {
   const scene::Solve solve = source_.with({}).solve;
-  return makes_steps_by_tolerance(solve) ? !solve.tolerance : !solve.step;
+  return compile::has_steps_by_tolerance(solve) ? !solve.tolerance : !solve.step;
 }
 
 Run SceneRuns::run(Eigen::Index samples, compile::MovingState* end) {

@@ -67,6 +67,10 @@ bool has_own_tolerance(const std::string& integrator) {
   return integrator == "explicit_pair" || integrator == "sundials_bdf";
 }
 
+bool has_steps_by_tolerance(const scene::Solve& solve) {
+  return solve.tolerance || has_own_tolerance(solve.integrator);
+}
+
 std::unique_ptr<dynamics::Integrator> make_integrator(const scene::Scene& scene, const dynamics::Model& model) {
   const scene::Solve& solve = scene.solve;
   if (solve.tolerance) refuse_tolerance(solve, model);

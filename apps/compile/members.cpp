@@ -88,7 +88,7 @@ dynamics::SlammingMember slamming(const Scene& scene, const scene::Member& m) {
 /// Of the water's velocity at members: so small a share of the accuracy that it needs no estimate of its own. What cuts
 /// its steps by their error takes the water where members are.
 double foresight(const Scene& scene) {
-  if (scene.solve.tolerance || has_own_tolerance(scene.solve.integrator)) return 0;
+  if (has_steps_by_tolerance(scene.solve)) return 0;
   return std::min(1e-4, scene.accuracy / 100);
 }
 

@@ -181,7 +181,7 @@ ChosenStep choose_step(const Scene& scene, const Prepared& prepared) {
                      scene.solve.step->place, "take a shorter step, or leave it out, or let the load take longer");
   check_count(scene, step, follows);
   ChosenStep out{step, {"step", "as the scene gives it; " + follows, size(step), true}, {}};
-  const bool cuts = scene.solve.tolerance || has_own_tolerance(scene.solve.integrator);
+  const bool cuts = has_steps_by_tolerance(scene.solve);
   if (step > longest * (1 + 1e-9) && !cuts)
     out.note = fmt::format(
         "the step that the scene gives, {:.4g} s, is longer than the {:.4g} s that an accuracy of {:.2g} asks for; "

@@ -30,8 +30,8 @@ SlopeError slope_error_of(std::initializer_list<SlopeOfChannel> channels);
 void count_slope(const SlopeError& slope, double sensitivity, Coefficient& c);
 /// The same for an interval about `middle`.
 Interval with_slope(const SlopeError& slope, double sensitivity, double middle, const Interval& interval);
-/// Counts a bias of known size and sign, as of steps (F117) or of resolution (F118): what is free of it lies `shift` from
-/// the value, and the interval reaches over both.
+/// Counts a bias of known size and sign, as of steps (F117) or of resolution (F118): what is free of it lies `shift`
+/// from the value, and the interval reaches over both.
 void count_shift(double shift, Coefficient& c);
 /// The same for an interval alone.
 Interval with_shift(double shift, const Interval& interval);
