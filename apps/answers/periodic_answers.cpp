@@ -44,7 +44,9 @@ PeriodicAnswers::Arrival PeriodicAnswers::reached(double period, const MotionAt&
   auto [end, joined] = carry(family, before, from, height, options_);
   if (joined) return {std::move(end), grown};
   // Where motions grow no further they turn back; what comes after is where a run goes.
-  FollowedBranch branch = follow(family, from.parameter, height, from.motion, {.balance = options_});
+  // The fold that follows may lie below where the branch comes from, down to waves of next to no height.
+  FollowedBranch branch = follow(family, from.parameter, height, from.motion,
+                                 {.before = from.parameter - lowest_height(), .balance = options_});
   if (branch.end.empty()) {
     const bool turned =
         std::any_of(branch.points.begin(), branch.points.end(), [](const auto& p) { return !p.forwards; });
@@ -54,9 +56,7 @@ PeriodicAnswers::Arrival PeriodicAnswers::reached(double period, const MotionAt&
   return {std::move(end), end.found ? jumped : not_found};
 }
 
-MotionAt PeriodicAnswers::still(double period) const {
-  return {0, at_rest(*at(period, 1e-3 * scene_.stability->heights.front()))};
-}
+MotionAt PeriodicAnswers::still(double period) const { return {0, at_rest(*at(period, lowest_height()))}; }
 
 PeriodicAnswers::Arrival PeriodicAnswers::from_rest(double period, double height) const {
   const auto system = at(period, height / 8);
@@ -73,7 +73,7 @@ bool PeriodicAnswers::beyond_breaking(double period, double height) const {
 std::vector<Signal> PeriodicAnswers::signals() const {
   std::vector<Signal> out;
   // Of the longest and lowest waves: whatever they are, signals are the same.
-  const auto system = at(scene_.stability->periods.back(), 1e-3 * scene_.stability->heights.front());
+  const auto system = at(scene_.stability->periods.back(), lowest_height());
   for (const auto& s : signals_of_map(*scene_.stability, system->model()))
     out.push_back({s.name, s.unit, "standard deviation of " + s.meaning, {}});
   return out;
@@ -121,7 +121,10 @@ StabilityMap::Branch followed(const PeriodicAnswers& answers, const scene::AskSt
   }
   const Family family = out.over_periods ? answers.by_period(*branch.height) : answers.by_height(*branch.period);
   FollowedBranch found = follow(family, from, to, std::move(first.end.motion),
-                                {.step = 0.01, .largest_step = 0.05, .balance = answers.options()});
+                                {.step = 0.01,
+                                 .largest_step = 0.05,
+                                 .before = out.over_periods ? 0 : from - answers.lowest_height(),
+                                 .balance = answers.options()});
   out.begin = first.reached;
   out.end = std::move(found.end);
   if (out.end.empty() && to < (out.over_periods ? ask.periods : ask.heights).back())

@@ -36,6 +36,8 @@ class PeriodicAnswers {
   Arrival from_rest(double period, double height) const;
   /// No waves, no motion.
   dynamics::frequency::MotionAt still(double period) const;
+  /// Waves of next to no height, m.
+  double lowest_height() const { return 1e-3 * scene_.stability->heights.front(); }
   bool beyond_breaking(double period, double height) const;
   const dynamics::frequency::BalanceOptions& options() const { return options_; }
 

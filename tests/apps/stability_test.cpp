@@ -166,6 +166,25 @@ TEST(Stability, FollowsTheBranchesOfDuffing) {
   EXPECT_GT(back, 3);
 }
 
+// On a map of many heights the last one below the fold lies above the other fold, to which the branch turns back.
+TEST(Stability, FindsAMotionBeyondAFoldFromHeightsAboveTheOther) {
+  scene::Scene scene = slide("0.1 m .. 1 m, 19 values", "cubic = \"53.7 kN/m^3\"\n");
+  scene.stability->periods = {9};
+  scene.stability->branches = {{.height = {}, .period = 9, .place = {}}};
+  const StabilityMap map = stability(scene);
+  int round = 0;
+  double before = 0;
+  for (std::size_t c = 0; c < map.cells.size(); ++c) {
+    ASSERT_NE(map.cells[c].reached, StabilityMap::Reached::not_found) << map.height[c];
+    EXPECT_GT(map.signals.at(0).values[c], before) << "higher waves move more";
+    before = map.signals.at(0).values[c];
+    round += map.cells[c].reached == StabilityMap::Reached::round_folds ? 1 : 0;
+  }
+  EXPECT_EQ(round, 1) << "beyond it heights go on from the upper branch";
+  EXPECT_EQ(map.branches.at(0).end, "");
+  EXPECT_EQ(map.branches.at(0).points.back().height, map.height.back());
+}
+
 // At 9 s the motion cannot grow any further somewhere below 1 m, and what a run comes to is on the other side of two
 // folds.
 TEST(Stability, TellsWhereABranchTurnsBackOnItsWay) {

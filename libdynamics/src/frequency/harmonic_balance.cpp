@@ -348,7 +348,7 @@ class Branch {
   Place moved(const Place& at, const VectorXd& way) const {
     Place out = at;
     out.Y += size_ * Eigen::Map<const MatrixXd>(way.data(), at.Y.rows(), at.Y.cols());
-    out.parameter += (to_ - from_) * way[way.size() - 1];
+    out.parameter += range() * way[way.size() - 1];
     return out;
   }
   /// Onto the branch, across the tangent: Newton. Empty if that does not settle within `reach` of where it begins.
@@ -392,16 +392,19 @@ class Branch {
   Bordered bordered(const Place& p, const VectorXd& last_row) const {
     const BalanceEquations here = at(p);
     // Inwards, so that a family need not reach beyond its range.
-    const double h = (std::abs(p.parameter - from_) < std::abs(p.parameter - to_) ? 1e-6 : -1e-6) * (to_ - from_);
+    const double h = (std::abs(p.parameter - from_) < std::abs(p.parameter - to_) ? 1e-6 : -1e-6) * range();
     const VectorXd by_parameter = (residual_at({p.Y, p.parameter + h}) - here.residual) / h;
     const Index all = here.residual.size();
     Bordered out{MatrixXd(all + 1, all + 1), VectorXd::Zero(all + 1)};
     out.matrix.topLeftCorner(all, all) = size_ * here.jacobian;
-    out.matrix.topRightCorner(all, 1) = (to_ - from_) * by_parameter;
+    out.matrix.topRightCorner(all, 1) = range() * by_parameter;
     out.matrix.bottomRows(1) = last_row.transpose();
     out.right.head(all) = here.residual;
     return out;
   }
+
+  /// With what it may go back, and the sign of the way.
+  double range() const { return to_ - from_ + (to_ > from_ ? options_.before : -options_.before); }
 
   const Family& family_;
   double from_, to_, size_ = 1;
@@ -454,7 +457,8 @@ std::string go_on(Branch& branch, Branch::Place at, double from, double to, cons
       tangent = with_rows(tangent, at.Y.size() + 1);
       continue;
     }
-    if ((next->parameter - from) * (to - from) < 0) return ended("comes back to where it began");
+    if ((next->parameter - from) * (to > from ? 1 : -1) < -options.before)
+      return ended("turns back from where it began");
     at = *next;
     points.push_back({at.parameter, branch.motion(at), tangent[tangent.size() - 1] > 0});
     step = std::min(1.3 * step, options.largest_step);

@@ -125,6 +125,7 @@ struct FollowOptions {
   double step = 0.02;  ///< of arc, to begin with: of the range of the parameter and of the size of the motion
   double largest_step = 0.1;
   int points = 400;
+  double before = 0;  ///< how far the parameter may go back beyond where the branch begins
   BalanceOptions balance = {};
 };
 
@@ -135,8 +136,8 @@ struct FollowedBranch {
 
 /// The branch through `start`, a motion at the parameter `from`, by pseudo-arclength, (Q11): round folds, until the
 /// parameter is `to`, which the last point has. Steps after which Newton is farther from the tangent than half of them
-/// are halved: beyond may be another branch. It ends before where it comes below `from` again, where there are as many
-/// points or harmonics as are allowed, and where it cannot be followed any further.
+/// are halved: beyond may be another branch. It ends where it comes farther before `from` than is allowed, where there
+/// are as many points or harmonics as are allowed, and where it cannot be followed any further.
 FollowedBranch follow(const Family& family, double from, double to, PeriodicMotion start,
                       const FollowOptions& options = {});
 
