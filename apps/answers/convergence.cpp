@@ -12,13 +12,14 @@
 namespace froude {
 namespace {
 
-/// Both values at the samples that two runs share, and their times.
+/// Both values at the samples that two runs share, of which a third run of this stride has all that are seen, and their
+/// times.
 template <class See>
-void each_pair(const Beside& fine, const Beside& coarse, std::size_t signal, const See& see) {
+void each_pair(const Beside& fine, const Beside& coarse, std::size_t signal, const See& see, std::size_t stride = 1) {
   const auto& x = fine.run->signals[signal].values;
   const auto& y = coarse.run->signals[signal].values;
-  const std::size_t step = coarse.stride / fine.stride;
-  for (std::size_t j = 0; j < y.size() && j * step < x.size(); ++j) see(coarse.run->time[j], x[j * step], y[j]);
+  const std::size_t step = coarse.stride / fine.stride, every = std::max<std::size_t>(1, stride / coarse.stride);
+  for (std::size_t j = 0; j < y.size() && j * step < x.size(); j += every) see(coarse.run->time[j], x[j * step], y[j]);
 }
 
 /// rms of what is added.
@@ -73,14 +74,16 @@ std::vector<Sizes> sizes_of(const Run& run, double weight) {
   return out;
 }
 
-Difference difference(const Beside& fine, const Beside& coarse, std::size_t signal, const Sizes& sizes, double until) {
+Difference difference(const Beside& fine, const Beside& coarse, std::size_t signal, const Sizes& sizes, double until,
+                      std::size_t stride) {
   std::vector<double> a, b, off;
-  each_pair(fine, coarse, signal, [&](double t, double x, double y) {
+  const auto see = [&](double t, double x, double y) {
     if (t > until) return;
     a.push_back(x);
     b.push_back(y);
     off.push_back(x - y);
-  });
+  };
+  each_pair(fine, coarse, signal, see, stride);
   const Statistics x = statistics(a), y = statistics(b);
   const double ends = std::max(std::abs(x.lowest - y.lowest), std::abs(x.highest - y.highest));
   return {statistics(off).rms / sizes.rms,
@@ -95,7 +98,11 @@ Convergence convergence(const Beside& fine, const Beside& coarse, const std::opt
   const Difference before = difference(coarse, *coarsest, signal, sizes, until);
   if (d.rms == 0) return {0, largest};
   constexpr double safety = 1.25;  // what is left beside the first term of the error [Roache 1994, sec. 4]
-  const double ratio = before.rms / d.rms, falls = std::clamp(ratio, std::numbers::sqrt2, largest);
+  // By how much differences fall is seen where all three runs are: samples twice as far apart may lie at crests alone,
+  // where errors of phase are not seen.
+  const double shared = difference(fine, coarse, signal, sizes, until, coarsest->stride).rms;
+  const double ratio = shared > 0 ? before.rms / shared : largest,
+               falls = std::clamp(ratio, std::numbers::sqrt2, largest);
   // Two runs may agree by chance, where corners of a force fall on their steps alike: no error falls by more than the
   // method's order.
   const double rms = std::max(d.rms, before.rms / largest);

@@ -63,9 +63,9 @@ struct Difference {
 
   double most() const { return std::max(rms, statistics); }
 };
-/// Up to a time, s, at the samples that both share.
+/// Up to a time, s, at the samples that both share, and share with a run of this stride.
 Difference difference(const Beside& fine, const Beside& coarse, std::size_t signal, const Sizes& sizes,
-                      double until = std::numeric_limits<double>::infinity());
+                      double until = std::numeric_limits<double>::infinity(), std::size_t stride = 1);
 
 /// The error of the first of runs with longer and longer steps, over the sizes of the signal.
 struct Convergence {

@@ -360,9 +360,13 @@ class Refinement {
                        tolerance ? "a tenth of it" : "half of it"),
            tolerance ? "give a smaller tolerance" : shorter_step(level, j));
   }
-  /// Less accuracy is begun with a longer step, from which it is as far to one that would do.
+  /// Less accuracy is begun with a longer step, from which it is as far to one that would do. Runs that differ by about
+  /// the signal itself have lost its phase: they cannot differ by more, and fall by less than the errors of steps that
+  /// keep it, which fall by the method's order.
   std::string shorter_step(int level, const Judged& j) const {
-    const double longest = companions_.at(level).step / std::exp2(levels_needed(j, room * scene_.accuracy));
+    constexpr double lost = 0.3;
+    const Judged seen = j.error < lost ? j : Judged{{j.error, largest_ratio()}, j.until};
+    const double longest = companions_.at(level).step / std::exp2(levels_needed(seen, room * scene_.accuracy));
     return fmt::format("give a shorter step, [solve] step = \"{:.6g} s\"",
                        scene_.run->every / std::ceil(scene_.run->every / longest));
   }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace convergence_test {
 namespace {
@@ -49,6 +50,24 @@ TEST(Convergence, TakesNoMoreThanTheMethodsOrderAndNoLessThanOrderAHalf) {
   EXPECT_DOUBLE_EQ(convergence({&fine, 1}, {&twice, 1}, Beside{&alike, 1}, 4, 0, in_its_unit).error,
                    safety * d / (std::sqrt(2.0) - 1));
   EXPECT_DOUBLE_EQ(convergence({&fine, 1}, {&twice, 1}, {}, 4, 0, in_its_unit).error, d);
+}
+
+// Samples twice as far apart lie at crests alone, where errors of phase are of second order.
+TEST(Convergence, SeesByHowMuchErrorsFallWhereAllRunsAre) {
+  const auto late = [](double phase, double every) {
+    froude::Run out;
+    out.signals = {{"x", "m", "", {}}};
+    for (int i = 0; every * i <= 20 + 1e-9; ++i) {
+      out.time.push_back(every * i);
+      out.signals[0].values.push_back(std::cos((2 * std::numbers::pi + phase) * every * i));
+    }
+    return out;
+  };
+  const froude::Run fine = late(1e-5, 0.25), twice = late(4e-5, 0.25), fourfold = late(16e-5, 0.5),
+                    exact = late(0, 0.25);
+  const double off = difference({&fine, 1}, {&exact, 1}, 0, in_its_unit).rms;
+  const double told = convergence({&fine, 1}, {&twice, 1}, Beside{&fourfold, 2}, 4, 0, in_its_unit).error;
+  EXPECT_NEAR(told, safety * off, 1e-3 * off);  // φ²/2 of phases below 3.2e-3
 }
 
 TEST(Convergence, SeesErrorsOfStatisticsBesideALargeMean) {
