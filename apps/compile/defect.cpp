@@ -168,8 +168,31 @@ MissingImpedance open_between_cubics(const SymmetricData& data) {
   return out;
 }
 
-MissingImpedance open_between(const MemoryInRun& memory) {
-  return memory.poles ? open_between_poles(memory) : open_between_cubics(*memory.data);
+/// Beyond the last frequency ω_N nothing is known: what the memory has there may be all wrong, and so may be what it
+/// lets fall faster than ω_N/ω of what it had at the end. From there on doubt grows to all of it over an eighth of ω_N.
+Eigen::MatrixXcd open_beyond(const MemoryInRun& memory, double over) {
+  constexpr double doubtful_from = 0.125;
+  const double last = memory.data->damping.omega.back();
+  const Eigen::ArrayXXcd at_end = memory.transform(last).array();
+  Eigen::ArrayXXcd there = memory.transform(over * last).array();
+  for (Eigen::Index i = 0; i < there.size(); ++i) {
+    const double size = std::abs(there(i)), least = std::abs(at_end(i)) / over;
+    if (size < least) there(i) = size > 0 ? there(i) * (least / size) : Complex(least);
+  }
+  return (std::min(1.0, (over - 1) / doubtful_from) * there).matrix();
+}
+
+/// What the data leave open between their frequencies and beyond the last.
+MissingImpedance open_in_data(const MemoryInRun& memory) {
+  MissingImpedance out = memory.poles ? open_between_poles(memory) : open_between_cubics(*memory.data);
+  const double last = memory.data->damping.omega.back();
+  for (const double over : {1.03125, 1.0625, 1.125, 1.25, 1.5, 2.0, 3.0, 4.0, 6.0, 8.0}) {
+    out.omega.push_back(over * last);
+    out.Z.push_back(open_beyond(memory, over));
+  }
+  // Far beyond, added mass is A(∞), which the data have or the fit has found.
+  out.Z.back().imag().setZero();
+  return out;
 }
 
 /// Adds what each group lacks. Groups with the same data and memory share it.
@@ -259,7 +282,7 @@ std::optional<LoadRecord> data_defect(const scene::Scene& scene, const Prepared&
                                       const VelocityRecord& motion) {
   if (prepared.groups.empty()) return {};
   LoadRecord out = none(motion);
-  add_missing(model, motion, open_between, out);
+  add_missing(model, motion, open_in_data, out);
   if (model.water.sea) add_open_excitation(scene, prepared, *model.water.sea, out);
   return out;
 }

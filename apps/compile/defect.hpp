@@ -18,10 +18,11 @@ struct VelocityRecord {
 /// stays; beyond the last see hydro::radiation::missing_load(). Empty where nothing radiates.
 std::optional<LoadRecord> memory_defect(const TimeModel& model, const VelocityRecord& motion);
 
-/// What A, B and X may be off between the frequencies of their data, as a load (R26). Where cubics go between them, for
-/// excitation and convolutions: what the cubic through every other frequency misses at those left out, divided by what
-/// halving the spacing gains. Where poles do: what they would miss of each frequency, were it left out of their fit.
-/// Bodies whose excitation turns with them are taken as placed. Empty where no body has coefficients.
+/// What A, B and X may be off between the frequencies of their data and beyond them, as a load (R26). Where cubics go
+/// between them, for excitation and convolutions: what the cubic through every other frequency misses at those left
+/// out, divided by what halving the spacing gains. Where poles do: what they would miss of each frequency, were it left
+/// out of their fit. Beyond the last frequency: all that the memory has there, and no less than what it had at the end,
+/// falling as ω⁻¹. Bodies whose excitation turns with them are taken as placed. Empty where no body has coefficients.
 std::optional<LoadRecord> data_defect(const scene::Scene& scene, const Prepared& prepared, const TimeModel& model,
                                       const VelocityRecord& motion);
 
