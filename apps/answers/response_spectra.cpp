@@ -14,6 +14,7 @@
 #include "compile/compile.hpp"
 #include "compile/kept.hpp"
 #include "compile/members.hpp"
+#include "compile/waves.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/waves/spectra/spectrum.hpp"
 
@@ -176,6 +177,7 @@ ResponseSpectra answer_of(const scene::Scene& scene, std::size_t sea, const Dens
     units.resize(units.size() - std::string_view("/m").size());  // per metre of wave amplitude no more
     out.signals.push_back({r.signals[s].name, units, found.spectrum(sea, s + 1)});
   }
+  for (std::string& warning : compile::wave_warnings(scene)) out.warnings.push_back(std::move(warning));
   if (random.second_order) out.notes.emplace_back("bound waves of second order are left out");
   if (out.left_out > scene.accuracy)
     out.warnings.push_back(fmt::format(

@@ -381,6 +381,26 @@ double limiting_steepness(double tp) { return 1.0 / 15 + (1.0 / 25 - 1.0 / 15) *
 
 }  // namespace
 
+namespace {
+
+/// What the scene itself leaves out of a sea.
+void note_cut(const scene::RandomSea& sea, double accuracy, std::vector<std::string>& out) {
+  if (!sea.lowest && !sea.highest) return;
+  double all = 0, inside = 0;  // m²
+  for (const auto& system : sea.systems) {
+    all += system.spectrum->moment(0);
+    inside +=
+        system.spectrum->energy(sea.lowest.value_or(0), sea.highest.value_or(std::numeric_limits<double>::infinity()));
+  }
+  if (const double outside = 1 - inside / all; outside > accuracy)
+    out.push_back(
+        fmt::format("`lowest` and `highest` of the components leave {:.2g} % of the sea's energy "
+                    "out: its significant height is {:.4g} m, and would be {:.4g} m",
+                    100 * outside, 4 * std::sqrt(inside), 4 * std::sqrt(all)));
+}
+
+}  // namespace
+
 std::vector<std::string> wave_warnings(const scene::Scene& scene) {
   const scene::Waves& waves = *scene.waves;
   std::vector<std::string> out;
@@ -399,7 +419,8 @@ std::vector<std::string> wave_warnings(const scene::Scene& scene) {
       list != nullptr && list->recorded && list->recorded->left_out > much)
     out.push_back(fmt::format("{:.2g} % of the variance of the recorded waves lies outside the band that is taken",
                               100 * list->recorded->left_out));
-  if (const auto* random = std::get_if<scene::RandomSea>(&waves.kind))
+  if (const auto* random = std::get_if<scene::RandomSea>(&waves.kind)) {
+    note_cut(*random, scene.accuracy, out);
     for (const auto& system : random->systems) {
       const double hs = system.spectrum->hs(), tp = two_pi / system.spectrum->peak_omega();
       const double steepness = two_pi * hs / (scene.water.gravity * tp * tp), limit = limiting_steepness(tp);
@@ -408,6 +429,7 @@ std::vector<std::string> wave_warnings(const scene::Scene& scene) {
             "2π Hs/(g Tp²) = {:.3g} is above {:.3g}: seas of Hs {:.3g} m with Tp {:.3g} s are not measured, they break",
             steepness, limit, hs, tp));
     }
+  }
   return out;
 }
 

@@ -12,12 +12,14 @@ const Binding<Probe>& probe() {
       Binding<Probe>("[[probe]]", "a point that stays where it is, at which the water is told")
           .key(name_key("probe", "of the probe"))
           .key(vector("at", dim::length, "global, z up from still water"), &Probe::at)
-          .flags(
-              texts("gives", "what is told there").or_default("elevation", "the height of the surface above the point"),
-              {{"elevation", &Probe::elevation},
-               {"velocity", &Probe::velocity},
-               {"acceleration", &Probe::acceleration},
-               {"pressure", &Probe::pressure}})
+          .flags(texts("gives",
+                       "what is told there; acceleration: the rate of the velocity at the fixed point, not of the "
+                       "water that goes by")
+                     .or_default("elevation", "the height of the surface above the point"),
+                 {{"elevation", &Probe::elevation},
+                  {"velocity", &Probe::velocity},
+                  {"acceleration", &Probe::acceleration},
+                  {"pressure", &Probe::pressure}})
           .place(&Probe::place);
   return binding;
 }
