@@ -158,8 +158,6 @@ std::vector<std::string> left_out_of_linear_responses(const scene::Scene& scene,
         "drag on members is left out: it has no response per metre of wave ([ask.rao.drag] makes it linear for waves "
         "of "
         "one height)");
-  if (one_member([](const scene::Member& m) { return m.morison && m.morison->cd_tangential > 0; }))
-    out.emplace_back("drag along members is left out: it is in runs only");
   if (one_member([](const scene::Member& m) {
         return m.morison && m.morison->line.immersion == dynamics::Immersion::surface;
       }))

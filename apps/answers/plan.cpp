@@ -52,6 +52,7 @@ void add_absent(const scene::Scene& scene, const compile::Prepared& p, std::vect
   absent(named(&scene::Member::cd), "drag", "[member.drag]");
   absent(named(&scene::Member::morison), "morison", "[member.morison]");
   absent(named(&scene::Member::slamming), "slamming", "[member.slamming]");
+  absent(named(&scene::Member::ends), "ends", "[member.ends]");
 }
 
 /// Whose waves reach whom, of several bodies that make waves.
@@ -95,6 +96,8 @@ Section plan_rao(const scene::Scene& scene, const compile::Prepared& p, std::vec
                        "", scene.rao->drag.has_value()});
   if (one([](const auto& m) { return m.morison.has_value(); }))
     s.lines.push_back({"members", "Morison's inertia, linear on what is wet at rest", "", true});
+  if (one([](const auto& m) { return m.ends.has_value(); }))
+    s.lines.push_back({"ends", "of members: pressure of the waves and added mass", "", true});
   if (one([](const auto& m) { return m.slamming.has_value(); }))
     s.lines.push_back({"impact", "in runs only", "", false});
   return s;

@@ -67,6 +67,7 @@ Prepared prepare(const Scene& scene, std::shared_ptr<Kept> kept) {
     out.bodies.push_back(rigid_body(b));
   }
   out.water = scene.water;
+  check_ends(scene);
   add_buoyancy(scene, out);
   add_hydrodynamics(scene, out);
   add_sections(scene, out);

@@ -9,6 +9,7 @@
 #include "compile/integrator.hpp"
 #include "compile/waves.hpp"
 #include "dynamics/force/drag.hpp"
+#include "dynamics/force/member_ends.hpp"
 #include "dynamics/force/morison.hpp"
 #include "dynamics/force/slamming.hpp"
 #include "hydro/waves/dispersion.hpp"
@@ -17,6 +18,7 @@
 namespace froude::compile {
 namespace {
 
+using dynamics::DragPiece;
 using hydro::InputError;
 using scene::Scene;
 
@@ -85,6 +87,44 @@ dynamics::SlammingMember slamming(const Scene& scene, const scene::Member& m) {
   return out;
 }
 
+/// Calls act(place, direction into the member), body axes, for the ends that are loaded.
+template <class Act>
+void for_each_end(const scene::Member& m, const Act& act) {
+  const Eigen::Vector3d along = (m.to - m.from).normalized();
+  if (m.ends->from) act(m.from, along);
+  if (m.ends->to) act(m.to, Eigen::Vector3d(-along));
+}
+
+double section_area(double diameter) { return std::numbers::pi / 4 * diameter * diameter; }
+
+void check_ends_of(const Scene& scene, const scene::Member& m) {
+  const scene::Body& body = scene.bodies[static_cast<std::size_t>(m.body)];
+  for_each_end(m, [&](const Eigen::Vector3d& at, const Eigen::Vector3d&) {
+    if (body.position.z() + at.z() > 0)
+      throw InputError(fmt::format("an end of member \"{}\" is loaded by water, but lies above it", m.name), m.place,
+                       "name the end that is under water in `at` of its ends");
+  });
+  if (m.ends->pressure && body.hydrodynamics && body.hydrodynamics->excitation)
+    throw InputError(fmt::format("waves press on the ends of member \"{}\" and, as excitation, on all of its body: "
+                                 "the pressure would count twice",
+                                 m.name),
+                     m.place, "take pressure = true out of its ends, or excitation out of the body's hydrodynamics");
+}
+
+dynamics::MemberEnds ends_of(const Scene& scene, const scene::Member& m) {
+  const Eigen::Vector3d centre = scene.bodies[static_cast<std::size_t>(m.body)].centre_of_gravity;
+  const double plate = m.ends->diameter.value_or(m.diameter);
+  dynamics::MemberEnds out{.name = m.name, .body = m.body, .ends = {}, .told = loads_told(scene, m)};
+  for_each_end(m, [&](const Eigen::Vector3d& at, const Eigen::Vector3d& inward) {
+    out.ends.push_back({.arm = at - centre,
+                        .inward = inward,
+                        .pressed = m.ends->pressure ? section_area(m.diameter) : 0,
+                        .added = dynamics::end_added_mass(m.ends->ca, plate, scene.water.density),
+                        .drag = 0.5 * scene.water.density * m.ends->cd * section_area(plate)});
+  });
+  return out;
+}
+
 /// Of the water's velocity at members: so small a share of the accuracy that it needs no estimate of its own. What cuts
 /// its steps by their error takes the water where members are.
 double foresight(const Scene& scene) {
@@ -102,26 +142,37 @@ bool has_kinks_in_water(hydro::waves::Stretching stretching) {
 double points_asked(const Scene& scene, const scene::Member& m) {
   constexpr double runs = 3;        // of steps twice and four times as long, and of pieces half as long
   constexpr double iterations = 4;  // of Newton, with differences for derivatives, where no step foresees the water
-  const auto immersion = m.morison ? m.morison->line.immersion : m.slamming->line.immersion;
-  const bool foreseen = m.morison && immersion == dynamics::Immersion::whole && foresight(scene) > 0;
-  return (foreseen ? 1 : iterations) * runs * dynamics::points_per_piece(immersion) *
-         needed_pieces(scene, m, immersion);
+  double points = 0;                // of one run
+  if (m.ends) points += iterations * ((m.ends->from ? 1 : 0) + (m.ends->to ? 1 : 0));
+  if (m.morison || m.slamming) {
+    const auto immersion = m.morison ? m.morison->line.immersion : m.slamming->line.immersion;
+    const bool foreseen = m.morison && immersion == dynamics::Immersion::whole && foresight(scene) > 0;
+    points += (foreseen ? 1 : iterations) * dynamics::points_per_piece(immersion) * needed_pieces(scene, m, immersion);
+  }
+  return runs * points;
 }
 
-/// The areas of a body's wet ends at rest as waves press on them vertically, m²: upwards from below.
+/// The areas of a body's wet ends at rest on which waves would press vertically, but are not asked to, m²: upwards from
+/// below.
 double pressed_area(const Scene& scene, std::size_t body) {
   double area = 0;
   for (const scene::Member& m : scene.members) {
     if (static_cast<std::size_t>(m.body) != body || !m.morison) continue;
-    const double along = (m.to - m.from).normalized().z() * std::numbers::pi / 4 * m.diameter * m.diameter;
+    const double along = (m.to - m.from).normalized().z() * section_area(m.diameter);
     const double z = scene.bodies[body].position.z();
-    if (z + m.from.z() < 0) area += along;
-    if (z + m.to.z() < 0) area -= along;
+    const bool asked = m.ends && m.ends->pressure;
+    if (z + m.from.z() < 0 && !(asked && m.ends->from)) area += along;
+    if (z + m.to.z() < 0 && !(asked && m.ends->to)) area -= along;
   }
   return area;
 }
 
 }  // namespace
+
+void check_ends(const Scene& scene) {
+  for (const scene::Member& m : scene.members)
+    if (m.ends) check_ends_of(scene, m);
+}
 
 std::vector<std::string> ends_without_pressure(const scene::Scene& scene) {
   std::vector<std::string> out;
@@ -133,8 +184,8 @@ std::vector<std::string> ends_without_pressure(const scene::Scene& scene) {
     if (area > least)
       out.push_back(fmt::format(
           "{}: waves do not press on the ends of its members, {:.3g} m^2 seen from below: in long waves {:.3g} N "
-          "per metre of amplitude are missing from its heave; give it coefficients with excitation, of a "
-          "mesh or a cylinder, if that matters",
+          "per metre of amplitude are missing from its heave; add ends = {{ at = [\"from\"], pressure = "
+          "true }} to the member, or give the body coefficients with excitation, if that matters",
           body.name, area, scene.water.density * scene.water.gravity * area));
   }
   return out;
@@ -169,20 +220,36 @@ bool any_drag_at_rest(const Scene& scene) {
   return std::any_of(scene.members.begin(), scene.members.end(), [](const auto& m) { return m.cd.has_value(); });
 }
 
-bool any_drag(const Scene& scene) {
-  return std::any_of(scene.members.begin(), scene.members.end(),
-                     [](const auto& m) { return m.cd || (m.morison && m.morison->cd > 0); });
-}
+bool any_drag(const Scene& scene) { return std::any_of(scene.members.begin(), scene.members.end(), scene::has_drag); }
 
 namespace {
 
 /// Of a member's part that is wet at rest.
-std::vector<dynamics::DragPiece> wet_at_rest(const Scene& scene, const scene::Member& m, double cd,
-                                             const std::vector<dynamics::RigidBody>& bodies) {
+std::vector<DragPiece> wet_at_rest(const Scene& scene, const scene::Member& m, double cd,
+                                   const std::vector<dynamics::RigidBody>& bodies) {
   return dynamics::drag_pieces(bodies, m.body, m.from, m.to, m.diameter, cd, scene.water.density);
 }
 
-/// Also Morison's where `all`.
+/// Along a member's skin where that is wet at rest, ½ρ C_T πD of its length (D43): pieces of ½ρ C D with C = π C_T.
+std::vector<DragPiece> skin_at_rest(const Scene& scene, const scene::Member& m,
+                                    const std::vector<dynamics::RigidBody>& bodies) {
+  auto out = wet_at_rest(scene, m, std::numbers::pi * m.morison->cd_tangential, bodies);
+  for (DragPiece& piece : out) piece.along = true;
+  return out;
+}
+
+DragPiece piece_at(const dynamics::MemberEnds& member, const dynamics::MemberEnd& end) {
+  return {.body = member.body, .arm = end.arm, .axis = end.inward, .factor = end.drag, .along = true};
+}
+
+std::vector<DragPiece> drag_of_ends(const Scene& scene, const scene::Member& m) {
+  std::vector<DragPiece> out;
+  const dynamics::MemberEnds ends = ends_of(scene, m);
+  for (const auto& end : ends.ends) out.push_back(piece_at(ends, end));
+  return out;
+}
+
+/// Also Morison's and that of ends where `all`.
 DragAtRest drag_of_members(const Scene& scene, const std::vector<dynamics::RigidBody>& bodies, bool all) {
   DragAtRest out;
   const auto add = [&](std::size_t i, const std::vector<dynamics::DragPiece>& wet) {
@@ -199,6 +266,8 @@ DragAtRest drag_of_members(const Scene& scene, const std::vector<dynamics::Rigid
       add(i, wet);
     }
     if (all && m.morison && m.morison->cd > 0) add(i, wet_at_rest(scene, m, m.morison->cd, bodies));
+    if (all && m.morison && m.morison->cd_tangential > 0) add(i, skin_at_rest(scene, m, bodies));
+    if (all && m.ends && m.ends->cd > 0) add(i, drag_of_ends(scene, m));
   }
   for (auto& piece : out.pieces) piece.current.head<2>() = scene.current.at(dynamics::rest_position(piece, bodies).z());
   return out;
@@ -217,8 +286,12 @@ DragAtRest drag_of_responses(const Scene& scene, const std::vector<dynamics::Rig
 // A piece of ½ρ C_D D ℓ with C_D = 1 displaces ¼πD²ρℓ.
 dynamics::frequency::MemberInertia inertia_of_responses(const Scene& scene,
                                                         const std::vector<dynamics::RigidBody>& bodies) {
-  dynamics::frequency::MemberInertia out{.pieces = {}, .water = scene.water};
+  dynamics::frequency::MemberInertia out{.pieces = {}, .water = scene.water, .ends = {}};
   for (const scene::Member& m : scene.members) {
+    if (m.ends) {
+      const dynamics::MemberEnds ends = ends_of(scene, m);
+      for (const auto& end : ends.ends) out.ends.push_back({piece_at(ends, end), end.pressed, end.added});
+    }
     if (!m.morison) continue;
     for (const dynamics::DragPiece& piece : wet_at_rest(scene, m, 1, bodies)) {
       const double displaced = piece.factor * std::numbers::pi / 2 * m.diameter;
@@ -232,7 +305,7 @@ std::optional<hydro::waves::FieldUse> water_of_members(const Scene& scene, doubl
   Eigen::AlignedBox3d members;
   double points = 0;
   for (const auto& m : scene.members) {
-    if (!m.morison && !m.slamming) continue;
+    if (!m.morison && !m.slamming && !m.ends) continue;
     const Eigen::Vector3d origin = scene.bodies[static_cast<std::size_t>(m.body)].position;
     members.extend(origin + m.from);
     members.extend(origin + m.to);
@@ -247,12 +320,15 @@ void add_members(const Scene& scene, const std::vector<dynamics::RigidBody>& bod
   if (any_drag_at_rest(scene)) forces.push_back(drag(scene, bodies, water.sea ? &*water.sea : nullptr, grid));
   std::vector<dynamics::MorisonMember> moving;
   std::vector<dynamics::SlammingMember> struck;
+  std::vector<dynamics::MemberEnds> ended;
   for (const auto& m : scene.members) {
+    if (m.ends) ended.push_back(ends_of(scene, m));
     if (m.morison) moving.push_back(morison(scene, m));
     if (m.slamming) struck.push_back(slamming(scene, m));
   }
   if (!moving.empty())
     forces.push_back(std::make_unique<dynamics::MorisonKind>(std::move(moving), water.field, foresight(scene)));
+  if (!ended.empty()) forces.push_back(std::make_unique<dynamics::MemberEndsKind>(std::move(ended), water.field));
   if (!struck.empty())
     forces.push_back(std::make_unique<dynamics::SlammingKind>(std::move(struck), water.field, grid.step));
 }

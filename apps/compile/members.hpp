@@ -26,6 +26,10 @@ DragAtRest drag_of_responses(const scene::Scene& scene, const std::vector<dynami
 dynamics::frequency::MemberInertia inertia_of_responses(const scene::Scene& scene,
                                                         const std::vector<dynamics::RigidBody>& bodies);
 
+/// Loads on the ends of members have no law above the water, and the excitation of a hull has the pressure on all of
+/// it. \throws hydro::InputError for ends that are above the water at rest, or on which the waves press twice
+void check_ends(const scene::Scene& scene);
+
 /// Of each body that floats upright on members with Morison's load and has no other excitation, as a spar: what waves
 /// would push on the wet ends of its members, which Morison's equation leaves out.
 std::vector<std::string> ends_without_pressure(const scene::Scene& scene);

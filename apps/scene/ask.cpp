@@ -262,7 +262,6 @@ void check_scene(const Record& ask, Scene& scene) {
   constexpr double digits = 1e-9;  // runs are stepped in double precision, and differ by their rounding
   if (scene.accuracy < digits)
     throw ask.wrong("accuracy", "is finer than runs in double precision can be compared", "ask for 1e-9 or more");
-  const auto has_drag = [](const Member& m) { return m.cd || (m.morison && m.morison->cd > 0); };
   if (scene.rao && scene.rao->drag && std::none_of(scene.members.begin(), scene.members.end(), has_drag))
     throw ask.table("rao").table("drag").refused("makes drag linear, but no member names drag",
                                                  "leave it out, or add a [[member]] with drag");

@@ -73,6 +73,28 @@ Binding<SlammingMember> member_slamming() {
       .then([](const Record&, SlammingMember& out) { out.line.immersion = dynamics::Immersion::surface; });
 }
 
+Binding<EndLoads> member_ends() {
+  return Binding<EndLoads>("[member.ends]",
+                           "loads along the member on flat ends that stay under water, or on plates there")
+      .key(texts("at", "which ends: \"from\", \"to\" or both").one_of({"from", "to"}))
+      .key(effect("pressure", "waves press on the end, an area of the member's diameter"), &EndLoads::pressure)
+      .key(number("cd", "drag coefficient along the member, of the area of the end or its plate")
+               .within(Limit::not_negative)
+               .or_default("0", "a flat end has about 1, a thin plate that swings 2 to 10"),
+           &EndLoads::cd)
+      .key(number("ca", "water that goes along with the end, over that of half a sphere of its diameter")
+               .within(Limit::not_negative)
+               .or_default("0", "a face of a thin disc has 2/pi, 0.64"),
+           &EndLoads::ca)
+      .key(quantity("diameter", dim::length, "of the plate; left out: that of the member").positive().optional(),
+           &EndLoads::diameter)
+      .then([](const Record& record, EndLoads& out) {
+        for (const auto& end : record["at"].texts) (end.value == "from" ? out.from : out.to) = true;
+        if (!out.pressure && out.cd == 0 && out.ca == 0)
+          throw record.refused("names no load", "add pressure = true, cd or ca, or leave the table out");
+      });
+}
+
 /// A member without name, body and ends.
 const Binding<Member>& member() {
   static const Binding<Member> binding =
@@ -86,17 +108,23 @@ const Binding<Member>& member() {
           .table("drag", member_drag())
           .table("morison", member_morison(), &Member::morison)
           .table("slamming", member_slamming(), &Member::slamming)
+          .table("ends", member_ends(), &Member::ends)
           .key(effect("loads",
-                      "signals NAME.morison_force_x, NAME.slamming_force_x, … NAME.slamming_moment_z: the load "
-                      "of each of the two on the body, about its origin, along global axes")
-                   .only_beside_one_of({"morison", "slamming"}),
+                      "signals NAME.morison_force_x, NAME.slamming_force_x, NAME.ends_force_x, … "
+                      "NAME.ends_moment_z: the load of each of the three on the body, about its origin, along global "
+                      "axes")
+                   .only_beside_one_of({"morison", "slamming", "ends"}),
                &Member::loads)
           .at_most_one_of({"drag", "morison"})
-          .at_least_one_of({"drag", "morison", "slamming"});
+          .at_least_one_of({"drag", "morison", "slamming", "ends"});
   return binding;
 }
 
 }  // namespace
+
+bool has_drag(const Member& m) {
+  return m.cd || (m.morison && (m.morison->cd > 0 || m.morison->cd_tangential > 0)) || (m.ends && m.ends->cd > 0);
+}
 
 const Table& member_table() { return member().table(); }
 

@@ -25,7 +25,8 @@ void check_start(const Record& root, const Scene& scene) {
 }
 
 void check_excitation(const Record& root, const Scene& scene) {
-  bool excited = std::any_of(scene.members.begin(), scene.members.end(), [](const Member& m) { return m.morison; });
+  bool excited =
+      std::any_of(scene.members.begin(), scene.members.end(), [](const Member& m) { return m.morison || m.ends; });
   for (const Record& body : root.tables("body")) {
     if (!body.has("hydrodynamics") || !body.table("hydrodynamics").has("excitation")) continue;
     excited = true;
@@ -35,7 +36,7 @@ void check_excitation(const Record& root, const Scene& scene) {
   }
   if (scene.rao && !excited)
     throw root.table("ask").table("rao").refused(
-        "asks how bodies answer waves, but no body names excitation, and no member Morison's loads",
+        "asks how bodies answer waves, but no body names excitation, and no member Morison's loads or those of ends",
         "add excitation = true to [body.hydrodynamics]");
 }
 

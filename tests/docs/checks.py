@@ -191,7 +191,8 @@ def floor_complaint(part, folder, used):
 
 
 # Headers of the grammar that are installed, for elements of a user's own.
-PUBLIC_GRAMMAR = {Path("apps/scene", name) for name in ("binding.hpp", "document.hpp", "element.hpp", "record.hpp", "scene.hpp", "schema.hpp")}
+PUBLIC_GRAMMAR = {Path("apps/scene", name) for name in ("binding.hpp", "document.hpp", "element.hpp", "record.hpp", "scene.hpp", "schema.hpp",
+                                                      "waves.hpp")}
 
 
 def is_public(path):

@@ -33,16 +33,17 @@ inline hydro::waves::Component unit_wave(const hydro::Water& water, double omega
           .heading = heading};
 }
 
-/// Across the axis of a piece.
-inline Eigen::Matrix3d across(const DragPiece& piece) {
-  return Eigen::Matrix3d::Identity() - piece.axis * piece.axis.transpose();
+/// P: onto the plane across the axis of a piece, or onto the axis.
+inline Eigen::Matrix3d projection(const DragPiece& piece) {
+  const Eigen::Matrix3d onto_axis = piece.axis * piece.axis.transpose();
+  return piece.along ? onto_axis : Eigen::Matrix3d::Identity() - onto_axis;
 }
 
-/// The part across a piece of the velocity of its body, by the body's velocity.
-inline Eigen::Matrix<double, 3, 6> velocity_across(const DragPiece& piece) {
+/// PJ, the part that a piece feels of its own velocity, by the velocity of its body.
+inline Eigen::Matrix<double, 3, 6> projected_velocity(const DragPiece& piece) {
   Eigen::Matrix<double, 3, 6> J;
   J << Eigen::Matrix3d::Identity(), -cross_matrix(piece.arm);
-  return across(piece) * J;
+  return projection(piece) * J;
 }
 
 /// Of the undisturbed water at pieces where they are as placed, m/s per metre of wave, (3 pieces).

@@ -21,8 +21,8 @@ void DragLeftOut::take(double omega, double heading, const VectorXcd& xi, const 
   VectorXcd Q = VectorXcd::Zero(xi.size());
   for (std::size_t i = 0; i < turned_.size(); ++i) {
     const DragPiece& piece = turned_[i];
-    const Eigen::Matrix<double, 3, 6> J = velocity_across(piece);
-    const Eigen::Vector3cd relative = across(piece) * u.segment<3>(3 * static_cast<Index>(i)) -
+    const Eigen::Matrix<double, 3, 6> J = projected_velocity(piece);
+    const Eigen::Vector3cd relative = projection(piece) * u.segment<3>(3 * static_cast<Index>(i)) -
                                       std::complex<double>(0, omega) * J * xi.segment<6>(6 * piece.body);
     Q.segment<6>(6 * piece.body) += piece.factor * energy_equivalent_speed(relative) * J.transpose() * relative;
   }

@@ -31,8 +31,9 @@ Eigen::VectorXd coefficients(const LinearDrag& drag, Index w, double omega, cons
   Eigen::VectorXd out(drag.coefficient.rows());
   for (Index i = 0; i < out.size(); ++i) {
     const DragPiece& piece = drag.pieces[static_cast<std::size_t>(i)];
-    const Vector3cd relative = across(piece) * drag.velocity.block<3, 1>(3 * i, w) -
-                               std::complex<double>(0, omega) * velocity_across(piece) * xi.segment<6>(6 * piece.body);
+    const Vector3cd relative =
+        projection(piece) * drag.velocity.block<3, 1>(3 * i, w) -
+        std::complex<double>(0, omega) * projected_velocity(piece) * xi.segment<6>(6 * piece.body);
     out[i] = piece.factor * energy_equivalent_speed(a * relative);
   }
   return out;
@@ -63,7 +64,7 @@ void settle(LinearDrag& drag, Index w, const Equations& of, double omega, const 
 void add_drag(const LinearDrag& drag, Index w, double omega, Impedance& Z) {
   for (Index i = 0; i < drag.coefficient.rows(); ++i) {
     const DragPiece& piece = drag.pieces[static_cast<std::size_t>(i)];
-    const Eigen::Matrix<double, 3, 6> J = velocity_across(piece);
+    const Eigen::Matrix<double, 3, 6> J = projected_velocity(piece);
     Z.add(piece.body, piece.body, std::complex<double>(0, omega * drag.coefficient(i, w)) * J.transpose() * J);
   }
 }
@@ -73,7 +74,7 @@ VectorXcd LinearDrag::excitation(Index w, Index modes) const {
   for (Index i = 0; i < coefficient.rows(); ++i) {
     const DragPiece& piece = pieces[static_cast<std::size_t>(i)];
     F.segment<6>(6 * piece.body) +=
-        coefficient(i, w) * velocity_across(piece).transpose() * velocity.block<3, 1>(3 * i, w);
+        coefficient(i, w) * projected_velocity(piece).transpose() * velocity.block<3, 1>(3 * i, w);
   }
   return F;
 }

@@ -94,11 +94,11 @@ class SeaResponses {
     return equations_.solve(Z, load, cell.omega).xi;
   }
 
-  /// Of water and piece, across its axis, (3, headings).
+  /// Of water and piece, what the piece feels of it, (3, headings).
   MatrixXcd relative(const Cell& cell, std::size_t i, const MatrixXcd& xi) const {
     const DragPiece& piece = pieces_[i];
-    return across(piece) * cell.water.middleRows<3>(3 * static_cast<Index>(i)) -
-           std::complex<double>(0, cell.omega) * velocity_across(piece) * xi.middleRows<6>(6 * piece.body);
+    return projection(piece) * cell.water.middleRows<3>(3 * static_cast<Index>(i)) -
+           std::complex<double>(0, cell.omega) * projected_velocity(piece) * xi.middleRows<6>(6 * piece.body);
   }
 
   std::vector<DragPiece> pieces_;
@@ -183,10 +183,10 @@ LinearDrag still_water_drag(const VectorXd& coefficient, const SmallMotions& abo
 
 namespace {
 
-/// Two axes across a piece, and half way between them, (3, 3) by columns.
-Eigen::Matrix3d axes_across(const DragPiece& piece) {
+/// Two axes across a piece, or the one along it, and half way between them, (3, 3) by columns.
+Eigen::Matrix3d axes_of(const DragPiece& piece) {
   Eigen::Matrix3d out;
-  out.col(0) = piece.axis.unitOrthogonal();
+  out.col(0) = piece.along ? piece.axis : piece.axis.unitOrthogonal();
   out.col(1) = piece.axis.cross(out.col(0));
   out.col(2) = (out.col(0) + out.col(1)) / std::numbers::sqrt2;
   return out;
@@ -197,7 +197,7 @@ Eigen::Matrix3d axes_across(const DragPiece& piece) {
 std::vector<Variation> velocities_across(const SmallMotions& about, const std::vector<DragPiece>& pieces) {
   std::vector<Variation> out;
   for (const DragPiece& piece : turned(pieces, about.still)) {
-    const Eigen::Matrix<double, 3, 6> rows = axes_across(piece).transpose() * velocity_across(piece);
+    const Eigen::Matrix<double, 3, 6> rows = axes_of(piece).transpose() * projected_velocity(piece);
     for (int axis = 0; axis < 3; ++axis)
       out.push_back({.parts = {{.body = piece.body, .by_velocity = rows.row(axis)}}});
   }
@@ -211,7 +211,7 @@ std::vector<Eigen::Matrix3d> covariances_across(const SmallMotions& about, const
   for (Index i = 0; i < std::ssize(pieces); ++i) {
     const Eigen::Vector3d of = variance.segment<3>(3 * i);
     const double both = of[2] - (of[0] + of[1]) / 2;
-    const Eigen::Matrix3d axes = axes_across(turned(pieces[static_cast<std::size_t>(i)], about.still));
+    const Eigen::Matrix3d axes = axes_of(turned(pieces[static_cast<std::size_t>(i)], about.still));
     const Eigen::Matrix<double, 3, 2> across = axes.leftCols<2>();
     out.emplace_back(across * Eigen::Matrix2d{{of[0], both}, {both, of[1]}} * across.transpose());
   }

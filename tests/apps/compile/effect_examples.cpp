@@ -198,6 +198,8 @@ std::vector<Example> of_members() {
       in_waves("Morison, wet in part", "",
                member("morison = { cd = 1.0, ca = 1.0, partial_immersion = true, pieces = 3 }\n", 0.5), {"morison"}),
       in_waves("loads of a member", "", member(morison + "loads = true\n"), {"morison"}),
+      in_waves("ends of members", "", member("ends = { at = [\"from\"], pressure = true, cd = 1.0, ca = 0.64 }\n"),
+               {"ends"}),
       in_waves("slamming", "", member("slamming = { model = \"goda\", pieces = 3 }\n", 0.5), {"slamming"}),
       in_waves("current", "", "[current]\nvelocity = \"(0.5, 0, 0) m/s\"\n" + member(morison), {"morison"})};
 }

@@ -3,6 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <complex>
+#include <numbers>
+
+#include "answers/linear_response.hpp"
 #include "answers/simulate.hpp"
 #include "compile/kept.hpp"
 #include "hydro/base/error.hpp"
@@ -123,6 +127,55 @@ TEST(Members, ExampleOfABraceRunsAndItsEnergyAddsUp) {
   EXPECT_NE(energy("slamming.supplied"), 0);
   // The trapezium rule over an impact that begins at full force within a step is of first order.
   EXPECT_LT(std::abs(energy("residual")), 0.02 * energy("turnover"));
+}
+
+/// A spar of 20 m draught and 4 m diameter with a plate of 8 m at its foot, in deep water.
+scene::Scene spar(const std::string& ends, const std::string& more = "", const std::string& foot = "-20") {
+  return scene::parse("schema = 1\n[water]\ndensity = \"1000 kg/m^3\"\ndepth = \"infinite\"\n" + linear +
+                          "[[body]]\nname = \"spar\"\nmass = \"251.327 t\"\nfree = [\"heave\"]\nweight = true\n"
+                          "[body.buoyancy]\ncylinders = { from = \"(0, 0, -20) m\", to = \"(0, 0, 5) m\", "
+                          "diameter = \"4 m\" }\n" +
+                          more + "[[member]]\nname = \"column\"\non = \"spar\"\nfrom = \"(0, 0, " + foot +
+                          ") m\"\nto = \"(0, 0, 5) m\"\ndiameter = \"4 m\"\n"
+                          "morison = { cd = 0.7, ca = 1, partial_immersion = true }\n" +
+                          ends +
+                          "[ask]\nrao = { periods = \"6 s .. 14 s, 3 values\", of = [\"spar.heave\"] }\n"
+                          "run = { duration = \"8 s\", every = \"0.1 s\" }\n",
+                      examples / "test.toml");
+}
+
+const std::string foot_and_plate = "ends = { at = [\"from\"], pressure = true, ca = 1.2, diameter = \"8 m\" }\n";
+
+// e^{−kT} (ρgA − ω² m_a) lifts what has the mass M + m_a and the stiffness ρgA.
+TEST(Spar, HeavesAsThePressureAtItsFootLiftsIt) {
+  const auto s = spar(foot_and_plate);
+  const auto response = respond(s);
+  const double A = 4 * std::numbers::pi, lift = 1000 * s.water.gravity * A,
+               added = 1.2 * 1000 * std::numbers::pi / 12 * 512;
+  for (std::size_t w = 0; w < s.rao->omega.size(); ++w) {
+    const double omega = s.rao->omega[w], k = omega * omega / s.water.gravity;
+    const double wanted =
+        std::exp(-20 * k) * (lift - omega * omega * added) / (lift - omega * omega * (s.bodies[0].mass + added));
+    const std::complex<double> found = response.signal("spar.heave").values[w];
+    // Rounding of the dispersion and of two sums that nearly cancel at the heave period, 11 s.
+    EXPECT_NEAR(std::abs(found - wanted), 0, 1e-9 * std::abs(wanted)) << omega;
+  }
+}
+
+TEST(Spar, TellsTheLiftThatIsMissingWithoutEnds) {
+  EXPECT_THAT(compile::ends_without_pressure(spar("")), testing::ElementsAre(HasSubstr("ends = { at = [\"from\"]")));
+  EXPECT_THAT(compile::ends_without_pressure(spar(foot_and_plate)), testing::IsEmpty());
+}
+
+TEST(Spar, IsRefusedWherePressureCountsTwiceOrLiesAboveTheWater) {
+  const auto compiled = [](const scene::Scene& s) { return [s] { compile::time_model(s, compile::prepare(s)); }; };
+  EXPECT_THAT(compiled(spar(foot_and_plate,
+                            "[body.hydrodynamics]\nexcitation = true\n"
+                            "cylinders = { at = \"(0, 0, 0) m\", diameter = \"4 m\", draught = "
+                            "\"20 m\", frequencies = \"0.4 rad/s .. 1 rad/s, 3 values\" }\n")),
+              ThrowsMessage<hydro::InputError>(HasSubstr("count twice")));
+  EXPECT_THAT(compiled(spar("ends = { at = [\"to\"], cd = 1 }\n")),
+              ThrowsMessage<hydro::InputError>(HasSubstr("lies above it")));
 }
 
 }  // namespace

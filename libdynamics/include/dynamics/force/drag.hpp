@@ -7,14 +7,15 @@
 
 namespace dynamics {
 
-/// One piece of a member, small enough for one velocity: F = ½ ρ C_D D ℓ |w| w, w the part of u − v across the axis
-/// (D7).
+/// One piece of a member, small enough for one velocity: F = c |w| w, c = ½ ρ C_D D ℓ and w the part of u − v across
+/// the axis (D7); or along it, in linear responses, of its skin (D43) or of an end (D171).
 struct DragPiece {
   int body;
   Eigen::Vector3d arm;                                ///< from the centre of gravity, body axes, m
   Eigen::Vector3d axis;                               ///< unit vector, body axes
-  double factor;                                      ///< ½ ρ C_D D ℓ, kg/m
+  double factor;                                      ///< c, kg/m
   Eigen::Vector3d current = Eigen::Vector3d::Zero();  ///< steady part of u, global, m/s
+  bool along = false;                                 ///< w is the part along the axis
 };
 
 /// Cuts the part of a straight member that is wet at rest into Gauss–Legendre points. `from`, `to`: body axes from the
@@ -27,7 +28,8 @@ Eigen::Vector3d rest_position(const DragPiece& piece, const std::vector<RigidBod
 
 class DragKind final : public ForceKind {
  public:
-  /// `water`: 3 signals a piece, the undisturbed water velocity at its rest position; absent in still water.
+  /// `water`: 3 signals a piece, the undisturbed water velocity at its rest position; absent in still water. Pieces are
+  /// across their axes.
   DragKind(std::vector<DragPiece> pieces, std::optional<WaveSignals> water)
       : pieces_(std::move(pieces)), water_(std::move(water)) {}
   std::string effect() const override { return "drag"; }

@@ -28,7 +28,7 @@ struct DragSea {
 /// Of every piece, the same at all frequencies and headings of its sea.
 struct SeaDrag {
   Eigen::VectorXd coefficient;  ///< c β, N s/m
-  Eigen::MatrixX2d sigma;       ///< of the relative velocity across the axis, larger and smaller, m/s
+  Eigen::MatrixX2d sigma;       ///< of the relative velocity that a piece feels, larger and smaller, m/s
   int iterations = 0;           ///< solutions of (Q1) at all frequencies
   double residual = 0;          ///< largest change that one more would make, of the largest coefficient
 };
@@ -49,8 +49,8 @@ LinearDrag drag_with(const Eigen::VectorXd& coefficient, const SmallMotions& abo
 LinearDrag still_water_drag(const Eigen::VectorXd& coefficient, const SmallMotions& about,
                             const std::vector<DragPiece>& pieces);
 
-/// Velocities of pieces by the motions of bodies, three a piece: along two axes across it and half way between, whose
-/// variances give the covariance.
+/// Velocities of pieces by the motions of bodies, three a piece: along two axes across it, or the one along it,
+/// and half way between, whose variances give the covariance.
 std::vector<Variation> velocities_across(const SmallMotions& about, const std::vector<DragPiece>& pieces);
 /// That of each piece, along global axes, by their variances, (m/s)².
 std::vector<Eigen::Matrix3d> covariances_across(const SmallMotions& about, const std::vector<DragPiece>& pieces,
