@@ -178,5 +178,59 @@ class Fagerbakke(Rows):
         self.assertAlmostEqual(period, 60, delta=0.5)  # printed without decimals
 
 
+class OpenEnds(Rows):
+    """What docs/sources.md lists beside the sources."""
+
+    WHIP = """
+        schema = 1
+        title = "A body of 50 g at the end of a line of 10 kg"
+        water = { density = "1.2 kg/m^3", depth = "infinite" }
+        [[body]]
+        name = "tip"
+        position = "(9.9, 0, 0) m"
+        mass = "0.05 kg"
+        weight = true
+        radii_of_gyration = "(0.1, 0.1, 0.1) m"
+        free = ["surge", "sway", "heave"]
+        [[line]]
+        name = "whip"
+        from = "(0, 0, 0) m"
+        to = "(0, 0, 0) m"
+        on = { to = "tip" }
+        length = "10 m"
+        segments = 20
+        mass_per_length = "1 kg/m"
+        axial_stiffness = "1 MN"
+        [ask]
+        run = { duration = "4 s", every = "0.04 s", of = ["tip.*"] }
+        accuracy = 1e-2
+        """
+
+    def whip(self, *arguments, solve=""):
+        scene = self.folder / "whip.toml"
+        scene.write_text(self.WHIP + solve, encoding="utf-8")
+        return subprocess.run([str(FROUDE), "run", str(scene), "-o", "whip.h5", *arguments], cwd=self.folder,
+                              capture_output=True, text=True, timeout=300)
+
+    def test_a_light_body_on_a_heavy_whip_gets_the_step_that_it_needs(self):
+        done = self.whip("--json")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        run = json.loads(done.stdout)
+        # On the static stiffness of the line, some 970 N/m, the body swings in 0.045 s; a hundredth of accuracy takes steps of
+        # a fiftieth of that and less, as the closed form of the method's error has it.
+        self.assertLess(run["step_s"], 0.045 / 50)
+        self.assertEqual((run["steps"] * run["step_s"], run["halvings"]), (4, 0))
+        self.assertLess(run["energy_residual_relative"], 2e-3)  # of the second order: 7e-3 with eight times the step
+
+    def test_a_light_body_on_a_heavy_whip_is_refused_a_step_that_is_too_long(self):
+        done = self.whip(solve='[solve]\nstep = "0.02 s"\n')
+        self.assertEqual(done.returncode, 3, done.stderr)
+        self.assertRegex(done.stderr, r'the step of 0\.02 s is too long for this motion: give a shorter one, \[solve\] step = "0\.005 s"')
+        self.assertRegex(done.stdout, r"0\.02 s, is longer than the 0\.00062\d* s .* tip\.surge")
+        done = self.whip("--json", solve='[solve]\nstep = "0.005 s"\n')
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertLess(json.loads(done.stdout)["energy_residual_relative"], 0.02)
+
+
 if __name__ == "__main__":
     unittest.main(argv=sys.argv[:1])
