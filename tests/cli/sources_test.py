@@ -119,6 +119,47 @@ class VanZanten(Rows):
                 end = float(rows[torque]["lower.angle.mean [rad]"]) / DEGREE
                 self.assertLess(abs(end - median[1]), abs(model[1] - median[1]), torque)
 
+    def early_model(self, waves, torque):
+        """Largest top angle and relative angle of the source's first models, degrees: C_D = 2, C_A = 1, Wienke's impact, the
+        water above still water as at it (2.3.2), and static and dynamic torque alike."""
+        scene = self.changed("sweep/blow.toml", waves, ('"wheeler"', '"vertical"'),
+                             ("cd = 0.1, ca = 0.25", "cd = 2.0, ca = 1.0"),
+                             ('model = "goda", begins = "submerged", factor = 1.7', 'model = "wienke"'),
+                             ('static = "3.704 N m", dynamic = "3 N m"', f'static = "{torque} N m", dynamic = "{torque} N m"'),
+                             ('duration = "12 s"', 'duration = "9 s"'))
+        run = self.told("run", scene, "-o", "early.h5")["signals"]
+        return [max(abs(run[name]["lowest"]), abs(run[name]["highest"])) / DEGREE for name in ("upper.angle", "lower.angle")]
+
+    def test_the_first_two_models_are_too_high_and_the_second_less_so(self):
+        # The first has the ten waves in phase at the pendulum at 5 s; the second lets packets of them meet a metre ahead.
+        with open(self.folder / "examples/data/zanten_table3_1_wave_components.csv", newline="", encoding="utf-8") as file:
+            waves = [(float(row["amplitude_m"]), float(row["period_s"])) for row in csv.DictReader(file)]
+        rows = [f"{amplitude},{period},{-360 * 5 / period % 360:.4f}" for amplitude, period in waves]
+        (self.folder / "in_phase.csv").write_text("\n".join(["amplitude_m,period_s,phase_deg", *rows]) + "\n", encoding="utf-8")
+        packets = 'file = "../data/zanten_lowered_packets.csv"'
+        in_phase = (f'kind = "focused_packets"\n{packets}\nheading = "0 deg"\nfocus = {{ position = "(-1, 0, 0) m", time = "5 s" }}',
+                    'kind = "components"\nfile = "../../in_phase.csv"\nheading = "0 deg"\nramp = "2 s"')
+        for torque, top, relative in ((2, 1.244, 11.788), (4, 1.688, 5.894)):  # medians of table B.2
+            first = self.early_model(in_phase, torque)
+            second = self.early_model((packets, 'file = "../data/zanten_table3_1_wave_components.csv"'), torque)
+            # "Severely" over, and "significantly": more than four times and more than three times the top angle.
+            self.assertGreater(first[0], 4 * top)
+            self.assertGreater(second[0], 3 * top)
+            self.assertGreater(first[0], second[0])
+            self.assertGreater(first[1], second[1])
+            self.assertGreater(second[1], relative)
+
+
+class Hendriksen(Rows):
+    def test_coefficients_by_the_outer_diameter_are_those_of_the_same_force(self):
+        scene, ratio = "fit/oscillation.toml", 0.12 / 0.17
+        by_own = self.told("fit", f"examples/{scene}")["run"][0]
+        by_outer = self.told("fit", self.changed(scene, ('diameter = "0.12 m"', 'diameter = "0.17 m"')))["run"][0]
+        # Drag goes with D, the mass of the water with D^2: exactly so in still water, where the force is linear in both.
+        self.assertAlmostEqual(by_outer["cd"]["value"], ratio * by_own["cd"]["value"], delta=1e-6)
+        self.assertAlmostEqual(by_outer["ca"]["value"], ratio ** 2 * by_own["ca"]["value"], delta=1e-6)
+        self.assertAlmostEqual(by_outer["kc"], ratio * by_own["kc"], delta=1e-6)
+
 
 class Fagerbakke(Rows):
     def row_of(self, count, *changes):
@@ -176,6 +217,17 @@ class Fagerbakke(Rows):
             """, encoding="utf-8")
         period = self.told("modes", scene, "-o", "five.h5")["modes"][0]["period_s"]
         self.assertAlmostEqual(period, 60, delta=0.5)  # printed without decimals
+
+    def test_only_gaps_stiffer_than_any_of_the_sets_quench_the_surge_of_all_modules(self):
+        largest = {}
+        for row in self.table("quench"):
+            surges = [float(row[f"m{i}.surge.amplitude [m/m]"]) for i in range(1, 6)]
+            largest.setdefault(float(row["period [s]"]), {})[float(row["stiffness [N/m]"])] = max(surges)
+        for period, by_stiffness in largest.items():
+            # Ten times the stiffest set leaves less than a fifth of what the water moves at the surface.
+            self.assertLess(by_stiffness[300000], 0.2, period)
+            if period > 4:  # in waves of 3.5 s one module hardly surges: soft gaps leave it so
+                self.assertGreater(min(value for stiffness, value in by_stiffness.items() if 5000 <= stiffness <= 36000), 0.5)
 
 
 class OpenEnds(Rows):
