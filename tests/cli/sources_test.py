@@ -229,6 +229,20 @@ class Fagerbakke(Rows):
             if period > 4:  # in waves of 3.5 s one module hardly surges: soft gaps leave it so
                 self.assertGreater(min(value for stiffness, value in by_stiffness.items() if 5000 <= stiffness <= 36000), 0.5)
 
+    def test_the_table_of_all_cases_is_what_the_program_tells(self):
+        lines = (SOURCE / "examples/sweep/rows_responses.csv").read_text(encoding="utf-8").splitlines()[2:]
+        self.assertEqual(len(lines), 39 * (1 + 4 * (2 + 3 + 5)))
+        self.assertEqual(len({tuple(line.split(",")[:4]) for line in lines}), 507)
+        script = self.folder / "examples/sweep/make_rows_responses.py"
+        done = subprocess.run([sys.executable, "-B", str(script), str(FROUDE), "5", "S4"], capture_output=True, text=True, timeout=300)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        kept = [line for line in lines if line.startswith("5,S4,")]
+        for told, line in zip(done.stdout.splitlines(), kept, strict=True):
+            self.assertEqual(told.split(",")[:5], line.split(",")[:5])
+            for a, b in zip(told.split(",")[5:], line.split(",")[5:]):
+                # Four digits are kept; near a resonance with a hundredth of critical damping rounding grows some tenfold.
+                self.assertAlmostEqual(float(a), float(b), delta=5e-3 * abs(float(b)) + 1e-4)
+
 
 class OpenEnds(Rows):
     """What docs/sources.md lists beside the sources."""
