@@ -59,6 +59,22 @@ class Rows(unittest.TestCase):
         self.assertLessEqual(abs(truth - middle), widened * half, (truth, low, high))
 
 
+class Huijgen(Rows):
+    def test_quadratic_damping_alone_hardly_ends_the_tail(self):
+        left = {}
+        for row in self.table("damping"):
+            deviation, last = float(row["dropper.link2.polar.deviation [rad]"]), float(row["dropper.link2.polar.range [rad]"])
+            left[float(row["linear [kg/s]"]), float(row["quadratic [kg/m]"])] = deviation, last / deviation
+        # A swing that goes on as it is has a range of sqrt(8) deviations; one that dies out over the tail far less.
+        for quadratic in (0.001, 0.01, 0.1):
+            self.assertGreater(left[1e-9, quadratic][1], 0.8 * math.sqrt(8), quadratic)
+        self.assertLess(left[0.01, 1e-9][1], 0.2 * math.sqrt(8))
+        # More damping leaves less, of either kind alone.
+        for alone in ([(b, 1e-9) for b in (0.0001, 0.002, 0.01)], [(1e-9, b) for b in (0.001, 0.01, 0.1)]):
+            deviations = [left[key][0] for key in alone]
+            self.assertEqual(deviations, sorted(deviations, reverse=True))
+
+
 class VanZanten(Rows):
     def test_free_swings_tell_the_dampings_of_table_3_3(self):
         for part, (_, _, _, damping) in lab.PARTS.items():
