@@ -176,6 +176,31 @@ class Hendriksen(Rows):
         self.assertAlmostEqual(by_outer["ca"]["value"], ratio ** 2 * by_own["ca"]["value"], delta=1e-6)
         self.assertAlmostEqual(by_outer["kc"], ratio * by_own["kc"], delta=1e-6)
 
+    def test_tests_stand_where_the_map_has_them(self):
+        with open(self.folder / "examples/data/hendriksen_kc_re.csv", newline="", encoding="utf-8") as file:
+            points = [(row["source"], float(row["KC"]), float(row["Re"]))
+                      for row in csv.DictReader(line for line in file if not line.startswith("#"))]
+        waves = [point for point in points if point[0].startswith("waves (table")]
+        self.assertEqual((len(points), len(waves)), (33 + 10 + 5, 10))
+        told = self.told("experiment", "waves", "--period", "5.24 s", "--height", "0.2 m", "--depth", "1.25 m", "--gauge", "20 m",
+                         "--body", "23 m", "--diameter", "0.12 m", "--level", "0.48 m")
+        kc, speed = (next(found) for found in (self.found(told, name) for name in ("kc", "speed")))
+        longest = max(waves, key=lambda point: point[1])
+        # Four digits are kept; the source prints "up to 12".
+        self.assertAlmostEqual(kc, longest[1], delta=1e-3 * kc)
+        self.assertAlmostEqual(speed * 0.12 / 1.05e-6, longest[2], delta=1e-3 * longest[2])
+        self.assertAlmostEqual(kc, 12, delta=0.5)
+        self.froude("fit", "examples/fit/beside.toml", "--picture", "beside.svg")
+        self.assertIn("waves at the site (table 3.3)", (self.folder / "beside.svg").read_text(encoding="utf-8"))
+
+    def found(self, tree, name):
+        """All values under this name in a tree of JSON."""
+        if isinstance(tree, dict):
+            for key, value in tree.items():
+                if key == name:
+                    yield value
+                yield from self.found(value, name)
+
 
 class Fagerbakke(Rows):
     def row_of(self, count, *changes):
