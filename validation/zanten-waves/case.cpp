@@ -26,8 +26,9 @@ struct Condition {
   double focus, torque;
   auto operator<=>(const Condition&) const = default;
 };
+/// Of five or six runs, and what the thesis's own model gives.
 struct Measured {
-  Quantities median, thesis;
+  Quantities least, first_quartile, median, third_quartile, largest, thesis;
 };
 
 std::map<Condition, Measured> read_results(const Folders& folders) {
@@ -37,7 +38,11 @@ std::map<Condition, Measured> read_results(const Folders& folders) {
   std::map<Condition, Measured> out;
   for (std::size_t i = 0; i < pendulum.size(); ++i) {
     auto& of = out[{pendulum[i], table.column("x_focus_m")[i], table.column("torque_aim_Nm")[i]}];
+    of.least[quantity[i]] = table.column("minimum")[i];
+    of.first_quartile[quantity[i]] = table.column("q1")[i];
     of.median[quantity[i]] = table.column("median")[i];
+    of.third_quartile[quantity[i]] = table.column("q3")[i];
+    of.largest[quantity[i]] = table.column("maximum")[i];
     of.thesis[quantity[i]] = table.column("model")[i];
   }
   return out;
@@ -149,12 +154,125 @@ bool counts(const std::string& quantity, double torque) {
 struct Mean {
   double sum = 0;
   int count = 0;
-  void add(double value, double measured) {
-    sum += std::abs(value - measured) / std::abs(measured);
+  void add(double value, double measured) { add(std::abs(value - measured) / std::abs(measured)); }
+  void add(double value) {
+    sum += value;
     ++count;
   }
   double percent() const { return 100 * sum / count; }
 };
+
+/// Both energies over what is absorbed, figures 4.7 and 4.9: each at its own largest.
+double elastic_share(const Quantities& of) { return of.at("E_el_max") / of.at("E_abs_max"); }
+double dissipated_share(const Quantities& of) { return of.at("E_diss_max") / of.at("E_abs_max"); }
+
+/// What is left where both parts hang still and the hinge holds its relative angle: the least of eq. 4.2 over the top
+/// angle.
+double stored_at_rest(const Quantities& p, double relative) {
+  const double lower = p.at("mass_2") * gravity * p.at("cog_2");
+  const double upper = gravity * (p.at("mass_1") * p.at("cog_1") + p.at("mass_2") * p.at("length_1"));
+  return upper + lower - std::sqrt(upper * upper + lower * lower + 2 * upper * lower * std::cos(relative));
+}
+
+double dissipated_over_stored(const Quantities& p, const Quantities& of) {
+  return of.at("E_diss_max") / stored_at_rest(p, of.at("theta_rel_end") * degree);
+}
+
+/// How results of one model stand to the measured ones of one pendulum.
+struct Standing {
+  std::map<std::string, Mean> errors;
+  Mean in_range, in_quartiles, elastic, dissipated;
+};
+
+void judge(Standing& standing, const Quantities& of, const Measured& measured, double torque) {
+  for (const std::string& q : quantities) {
+    if (!counts(q, torque)) continue;
+    const double value = of.at(q);
+    standing.errors[q].add(value, measured.median.at(q));
+    standing.in_range.add(value >= measured.least.at(q) && value <= measured.largest.at(q) ? 1 : 0);
+    standing.in_quartiles.add(value >= measured.first_quartile.at(q) && value <= measured.third_quartile.at(q) ? 1 : 0);
+  }
+  standing.elastic.add(std::abs(elastic_share(of) - elastic_share(measured.median)));
+  if (counts("E_diss_max", torque))
+    standing.dissipated.add(std::abs(dissipated_share(of) - dissipated_share(measured.median)));
+}
+
+void tell(std::vector<Number>& numbers, const std::string& pendulum, const std::string& whose, Standing& standing) {
+  for (const std::string& q : quantities)
+    numbers.push_back({pendulum + ", " + q + ", mean error" + whose, standing.errors[q].percent(), "%"});
+  numbers.push_back({pendulum + ", share of elastic energy, mean error" + whose, standing.elastic.percent(), "%"});
+  numbers.push_back(
+      {pendulum + ", share of dissipated energy, mean error" + whose, standing.dissipated.percent(), "%"});
+  numbers.push_back({pendulum + ", within the least and largest run" + whose, standing.in_range.percent(), "%"});
+  numbers.push_back({pendulum + ", within the quartiles" + whose, standing.in_quartiles.percent(), "%"});
+}
+
+/// Curves over the torque of the hinge, at the middle place of the three.
+struct Curves {
+  plot::Series absorbed{.name = "Froude", .x = {}, .y = {}}, elastic{.name = "elastic, Froude", .x = {}, .y = {}},
+      dissipated{.name = "dissipated, Froude", .x = {}, .y = {}},
+      median{.name = "median", .x = {}, .y = {}, .dashed = true},
+      elastic_median{.name = "elastic, medians", .x = {}, .y = {}, .dashed = true},
+      dissipated_median{.name = "dissipated, medians", .x = {}, .y = {}, .dashed = true};
+  plot::Band runs{.name = "least to largest", .x = {}, .low = {}, .high = {}};
+  plot::Band quartiles{.name = "quartiles", .x = {}, .low = {}, .high = {}};
+};
+
+void append(plot::Series& series, double x, double y) {
+  series.x.push_back(x);
+  series.y.push_back(y);
+}
+void append(plot::Band& band, double x, double low, double high) {
+  band.x.push_back(x);
+  band.low.push_back(low);
+  band.high.push_back(high);
+}
+
+void append(Curves& curves, double torque, const Quantities& here, const Measured& measured) {
+  const std::string q = "E_abs_max";
+  append(curves.absorbed, torque, here.at(q));
+  append(curves.median, torque, measured.median.at(q));
+  append(curves.runs, torque, measured.least.at(q), measured.largest.at(q));
+  append(curves.quartiles, torque, measured.first_quartile.at(q), measured.third_quartile.at(q));
+  append(curves.elastic, torque, elastic_share(here));
+  append(curves.elastic_median, torque, elastic_share(measured.median));
+  append(curves.dissipated, torque, dissipated_share(here));
+  append(curves.dissipated_median, torque, dissipated_share(measured.median));
+}
+
+struct Pictures {
+  plot::Figure absorbed{.title = "Energy that the pendulum takes from the group, focus 1 m ahead", .panels = {}};
+  plot::Figure shares{.title = "Shares of the energy taken, focus 1 m ahead", .panels = {}};
+};
+
+void draw(Pictures& pictures, const std::string& pendulum, const Curves& c) {
+  const plot::Axis torque{"torque of the hinge, " + pendulum + " pendulum", "N m"};
+  pictures.absorbed.panels.push_back({.x = torque,
+                                      .y = {"largest absorbed energy", "J"},
+                                      .series = {c.absorbed, c.median},
+                                      .bands = {c.runs, c.quartiles}});
+  pictures.shares.panels.push_back({.x = torque,
+                                    .y = {"share of the absorbed energy", ""},
+                                    .series = {c.elastic, c.elastic_median, c.dissipated, c.dissipated_median}});
+}
+
+double median(std::vector<double> of) {
+  std::sort(of.begin(), of.end());
+  const std::size_t half = of.size() / 2;
+  return of.size() % 2 == 1 ? of[half] : 0.5 * (of[half - 1] + of[half]);
+}
+
+/// Dissipated energy over what is stored at rest, of conditions with a torque of at most 2 N m and with more: what is
+/// stored grows with the square of the angle, what is dissipated with the angle times the torque.
+struct OverStored {
+  std::vector<double> gentle, firm;
+  void add(double torque, double ratio) { (torque < 2.5 ? gentle : firm).push_back(ratio); }
+};
+
+void tell(std::vector<Number>& numbers, const std::string& whose, const OverStored& of) {
+  numbers.push_back({"dissipated over stored energy, up to 2 N m, median" + whose, median(of.gentle), ""});
+  numbers.push_back({"dissipated over stored energy, above 2 N m, median" + whose, median(of.firm), ""});
+}
 
 }  // namespace
 
@@ -162,35 +280,33 @@ Outcome outcome(const Folders& folders) {
   const auto results = read_results(folders);
   const auto factors = packet_factors(folders, results);
   Outcome out;
-  plot::Figure figure{.title = "Energy that the pendulum takes from the group, focus 1 m ahead", .panels = {}};
+  Pictures pictures;
+  OverStored ours_over_stored, measured_over_stored;
   for (const std::string pendulum : {"long", "medium", "short"}) {
     const Quantities p = read_pendulum(folders, pendulum);
-    std::map<std::string, Mean> ours, thesis;
-    plot::Series computed{.name = "Froude", .x = {}, .y = {}},
-        measured{.name = "measured", .x = {}, .y = {}, .dashed = true};
-    for (const auto& [condition, reference] : results) {
+    Standing ours, thesis;
+    Curves curves;
+    for (const auto& [condition, measured] : results) {
       if (condition.pendulum != pendulum) continue;
       scene::Scene scene = scene_of(folders, p, condition);
       multiply_packets(scene, factors.at(condition.focus));
       const Quantities here = simulated(p, scene);
-      for (const std::string& q : quantities) {
-        if (!counts(q, condition.torque)) continue;
-        ours[q].add(here.at(q), reference.median.at(q));
-        thesis[q].add(reference.thesis.at(q), reference.median.at(q));
-      }
-      if (condition.focus != 28.88) continue;
-      computed.x.push_back(condition.torque), computed.y.push_back(here.at("E_abs_max"));
-      measured.x.push_back(condition.torque), measured.y.push_back(reference.median.at("E_abs_max"));
+      judge(ours, here, measured, condition.torque);
+      judge(thesis, measured.thesis, measured, condition.torque);
+      if (condition.focus == 28.88) append(curves, condition.torque, here, measured);
+      if (!counts("E_diss_max", condition.torque)) continue;
+      ours_over_stored.add(condition.torque, dissipated_over_stored(p, here));
+      measured_over_stored.add(condition.torque, dissipated_over_stored(p, measured.median));
     }
-    for (const std::string& q : quantities) {
-      out.numbers.push_back({pendulum + ", " + q + ", mean error", ours[q].percent(), "%"});
-      out.numbers.push_back({pendulum + ", " + q + ", mean error of the thesis's own model", thesis[q].percent(), "%"});
-    }
-    figure.panels.push_back({.x = {"torque of the hinge, " + pendulum + " pendulum", "N m"},
-                             .y = {"largest absorbed energy", "J"},
-                             .series = {computed, measured}});
+    tell(out.numbers, pendulum, "", ours);
+    tell(out.numbers, pendulum, " of the thesis's own model", thesis);
+    draw(pictures, pendulum, curves);
   }
-  out.pictures.push_back({"absorbed", "Median of the measurements and one run each.", figure});
+  tell(out.numbers, "", ours_over_stored);
+  tell(out.numbers, " of the measured medians", measured_over_stored);
+  out.pictures.push_back({"absorbed", "What five or six runs measured, and one run each.", pictures.absorbed});
+  out.pictures.push_back(
+      {"shares", "Largest elastic and largest dissipated energy over the largest absorbed.", pictures.shares});
   return out;
 }
 
