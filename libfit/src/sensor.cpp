@@ -50,6 +50,15 @@ End end_of(std::span<const double> values, Before before) {
   return out;
 }
 
+std::size_t most_in_a_row(std::span<const double> values, double at) {
+  std::size_t most = 0, now = 0;
+  for (const double x : values) {
+    now = x < at || x > at ? 0 : now + 1;
+    most = std::max(most, now);
+  }
+  return most;
+}
+
 /// The different values of a record in increasing order; none where they are more than `most`.
 std::vector<double> levels_of(std::span<const double> values, std::size_t most) {
   std::unordered_set<double> seen;
@@ -72,6 +81,8 @@ std::optional<Clipping> find_clipping(std::span<const double> values) {  // (F19
   if (stops(low)) c.at_low = low.count;
   if (stops(high)) c.at_high = high.count;
   if (c.at_low + c.at_high == 0) return {};
+  if (c.at_low > 0) c.low_in_a_row = most_in_a_row(values, c.low);
+  if (c.at_high > 0) c.high_in_a_row = most_in_a_row(values, c.high);
   return c;
 }
 

@@ -159,7 +159,9 @@ TEST_F(Psd, ExtremesAreThoseOfTheRecordWithoutItsSpikes) {
   for (std::size_t j = 0; j < wave.size(); ++j) wave[j] *= 1 - 0.3 * std::cos(0.01 * time[j]);
   const double largest = *std::max_element(wave.begin(), wave.end());
   wave[1234] += 7;
-  const auto as_it_is = told({.file = csv(), .signal = "wave", .threshold = "1 m"}),
+  EXPECT_THAT([&] { told({.file = csv(), .signal = "wave", .threshold = "1 m"}); },
+              ThrowsMessage<InputError>(HasSubstr("--outliers bridges a spike")));
+  const auto as_it_is = told({.file = csv(), .signal = "wave", .threshold = "1 m", .accept = {"tail"}}),
              cleaned = told({.file = csv(), .signal = "wave", .threshold = "1 m", .steps = {.outliers = "2.1 s"}});
   EXPECT_GT(as_it_is["extreme"].get<double>(), 5);
   EXPECT_NEAR(cleaned["extreme"].get<double>(), largest, 1e-6);  // digits of the file; the spike is on no crest

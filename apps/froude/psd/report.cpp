@@ -242,7 +242,7 @@ Report report_of(const Analysis& a) {
 }
 
 std::vector<std::string> notes_of(const Analysis& a) {
-  std::vector<std::string> out;
+  std::vector<std::string> out = a.cautions;
   for (const Estimate& e : a.estimates)
     for (std::string& note : notes_of(e, a.uneven_segment.has_value())) out.push_back(std::move(note));
   for (const Estimate& e : a.estimates) {

@@ -39,6 +39,7 @@ struct Analysis {
   double confidence;
   std::optional<StepsDone> prepared;  ///< where steps before the spectrum were asked for
   std::string input;                  ///< empty: none
+  std::vector<std::string> cautions;  ///< of the record itself, where no steps told them
   std::vector<Estimate> estimates;
 };
 

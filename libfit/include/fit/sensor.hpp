@@ -10,8 +10,9 @@ namespace fit {
 
 /// A sensor at its stop: the same extreme value again and again.
 struct Clipping {
-  double low, high;                     ///< the extreme values
-  std::size_t at_low = 0, at_high = 0;  ///< samples that stand there, 0 where that side is free
+  double low, high;                                 ///< the extreme values
+  std::size_t at_low = 0, at_high = 0;              ///< samples that stand there, 0 where that side is free
+  std::size_t low_in_a_row = 0, high_in_a_row = 0;  ///< the most of them one after the other
 };
 /// Empty unless one of the extremes is taken by at least 5 samples and 5 times as often as the value next to it; (F19).
 /// Noise added after the stop hides it. \throws hydro::InputError for a value that is not finite
