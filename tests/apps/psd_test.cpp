@@ -96,6 +96,9 @@ TEST_F(Psd, TakesARecordWithGaps) {
   EXPECT_NEAR(j["signals"]["wave"]["tp_s"].get<double>(), 8, 0.05);
   EXPECT_THAT(text({.file = folder / "g.csv", .segment = "80 s", .uneven = true}), testing::Not(HasSubstr("alias")));
   EXPECT_THAT(text({.file = record("s.csv", 7), .segment = "80 s", .uneven = true}), HasSubstr("alias"));
+  // A line has nothing beside it but what the gap leaks.
+  EXPECT_THAT(text({.file = folder / "g.csv", .segment = "80 s", .uneven = true}),
+              HasSubstr("gaps let other frequencies leak into the density of wave"));
   EXPECT_THAT([&] { json({.file = folder / "g.csv", .segment = "80 s"}); },
               ThrowsMessage<InputError>(HasSubstr("even")));
   EXPECT_THAT([&] { json({.file = folder / "g.csv", .tapers = 3, .uneven = true}); },

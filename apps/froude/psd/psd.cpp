@@ -75,6 +75,7 @@ Estimate estimate(const Signal& signal, const RunResult& record, const Analysis&
   if (e.welch.variance <= 1e-28 * e.welch.mean * e.welch.mean) return e;
   e.moments = hs::moments(e.welch.spectrum, hs::whole(e.welch.spectrum));
   e.peak = hs::peak(e.welch.spectrum, hs::whole(e.welch.spectrum));
+  if (analysis.uneven_segment) e.leaked = hs::leaked_shares(record.time, *analysis.uneven_segment, e.welch.spectrum);
   const auto waves = hs::single_waves(record.time, signal.values);
   e.waves = waves.size();
   if (e.waves >= 3) e.statistics = hs::wave_statistics(waves);

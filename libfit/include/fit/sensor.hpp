@@ -53,7 +53,8 @@ struct EvenGrid {
   std::vector<std::size_t> filled;  ///< samples of the new grid that were missing
 };
 /// The even grid of a record that lacks rows; each gap may be `longest_gap_s` long. Samples must otherwise be even
-/// within 2 % of a step, or but for their last digit, to which they were rounded (F123). \throws hydro::InputError for a longer gap, naming the time, or time that does not increase
+/// within 2 % of a step, or but for their last digit, to which they were rounded (F123). \throws hydro::InputError for
+/// a longer gap, naming the time, or time that does not increase
 EvenGrid even_grid(std::span<const double> time_s, double longest_gap_s);
 /// A column on that grid: straight lines over the gaps, everything else unchanged.
 std::vector<double> on_grid(const EvenGrid& grid, std::span<const double> values);
