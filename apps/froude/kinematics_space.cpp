@@ -63,13 +63,28 @@ class TableWithGaps {
 struct OneCamera {
   FilmedTrack filmed;
   fc::Eye eye;
+  bool at_one_instant;  ///< all rows of a frame: no shutter is stated
 };
 OneCamera camera_of(const scene::FitScene& scene, const FilmAsked& film) {
   const scene::CameraTable& camera = film.camera;
   FilmedTrack filmed = filmed_track(scene, film.model, film.record);
   const fc::Eye eye = scene::placed(
       camera.place, [&] { return fc::eye_of(filmed.view, camera.along(), camera.pivot_at[1 - camera.along()]); });
-  return {std::move(filmed), eye};
+  return {std::move(filmed), eye, !camera.shutter};
+}
+
+/// What a shutter that nobody has stated would do, of the film in which markers move most.
+std::vector<std::string> notes_of_shutters(const std::vector<const OneCamera*>& cameras) {
+  double fastest = 0;
+  for (const OneCamera* camera : cameras)
+    for (const fc::Marker& m : camera->filmed.track.markers)
+      for (std::size_t i = 1; i < m.seen.size() && camera->at_one_instant; ++i)
+        if (m.seen[i] && m.seen[i - 1]) fastest = std::max(fastest, (m.seen[i]->at - m.seen[i - 1]->at).norm());
+  if (!(fastest > 0)) return {};
+  return {
+      fmt::format("each frame is taken for one instant: a rolling shutter displaces the fastest marker, which goes "
+                  "{:.3g} px a frame, by up to that, and deviations do not count it; [camera] shutter takes it off",
+                  fastest)};
 }
 
 /// Motions from rest of a body, each followed by its standard deviation times a factor; angles near those before.
@@ -203,6 +218,7 @@ void six_motions(const KinematicsArguments& a, Report& report) {
                fact("stray", frames > 0 ? std::sqrt(squares / frames) : 0.0));
   }
   say_misfits(bodies, camera, report);
+  report.sentences("notes", "note: {}", notes_of_shutters({&camera}));
 }
 
 /// The name of the other film, where a scene has two.
@@ -337,6 +353,7 @@ void places_by_two(const KinematicsArguments& a, Report& report) {
                fact("second_spacing_s", points.spacing));
   }
   report.sentences("apart", "note: {}", both.notes);
+  report.sentences("notes", "note: {}", notes_of_shutters({&first, &second}));
 }
 
 }  // namespace
