@@ -95,6 +95,8 @@ void check_camera(const Record& record, CameraTable& camera) {
                          "leave out scale and distance");
   if (camera.calibration.lens && !camera.y_down)
     throw record.wrong("y", "does not go with a lens", "leave it out: rows of a picture count downwards");
+  if (camera.shutter && !camera.y_down)
+    throw record.wrong("y", "does not go with a shutter", "leave it out: rows of a picture count downwards");
   if (camera.from && camera.to && !(*camera.from < *camera.to)) throw record.wrong("to", "must be later than from");
 }
 
@@ -166,6 +168,10 @@ const Binding<CameraTable>& camera_binding() {
                              "added to the track's times, so that they are those of a record or of the waves: `froude "
                              "kinematics --record` finds it; left out: the film's own times"),
                     &CameraTable::offset)
+          .optional(positive("shutter", dim::time,
+                             "in which a rolling shutter reads the rows of a frame, from the first, at the frame's "
+                             "time, to the last; left out: all at once"),
+                    &CameraTable::shutter)
           .optional(
               quantity(
                   "from", dim::time,

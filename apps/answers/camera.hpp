@@ -37,6 +37,7 @@ struct CameraTable {
   std::string deviation = {};                ///< of places that the track tells no errors of: "0.3 px", "1 mm"
   double frame_rate = 0;                     ///< Hz; 0: the track has times
   double offset = 0;                         ///< s, added to the track's times
+  std::optional<double> shutter = {};        ///< s, in which the rows of a frame are read; none: all at once
   std::optional<double> from = {}, to = {};  ///< s, in these times
   std::vector<::fit::camera::TrackColumns::Of> markers = {};
   Place place = {};

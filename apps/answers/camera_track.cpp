@@ -2,6 +2,7 @@
 
 #include <limits>
 
+#include "fit/camera/shutter.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/base/units.hpp"
 #include "scene/placed.hpp"
@@ -58,6 +59,16 @@ fc::TrackColumns columns_of(const scene::FitScene& scene, const scene::MotionMod
   return out;
 }
 
+/// Where a rolling shutter is stated, the places at the frames' own times.
+fc::Track without_shutter(fc::Track track, const scene::CameraTable& camera) {
+  if (!camera.shutter) return track;
+  const auto& lens = camera.calibration.lens;
+  const int height = lens ? lens->size.y() : track.size.y();
+  return scene::placed(camera.place, [&] {
+    return fc::of_one_instant(track, *camera.shutter, height, deviation_of(camera.deviation, track.in_metres));
+  });
+}
+
 }  // namespace
 
 fc::View view_of(const scene::CameraTable& camera, const fc::Track& track) {
@@ -92,7 +103,7 @@ FilmedTrack filmed_track(const scene::FitScene& scene, const scene::MotionModel&
                          const scene::MotionModel::Record& record) {
   const scene::CameraTable& camera = model.camera_of(record);
   return scene::placed({.file = record.file.value.string()}, [&] {
-    fc::Track track = fc::read_track(record.file.value, columns_of(scene, model, camera));
+    fc::Track track = without_shutter(fc::read_track(record.file.value, columns_of(scene, model, camera)), camera);
     for (double& t : track.time) t += camera.offset;
     const double begin = record.start.value_or(camera.from.value_or(track.time.front()));
     const double end = record.end.value_or(camera.to.value_or(std::numeric_limits<double>::infinity()));

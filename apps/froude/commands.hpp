@@ -198,6 +198,7 @@ struct FatigueArguments {
   std::string signal;  ///< whose cycles are counted
   SnArguments sn = {};
   std::optional<std::string> from = {};  ///< leave out what comes before
+  std::vector<std::string> accept = {};  ///< "stop": a sensor at its stop
   std::optional<Path> output = {};       ///< .csv of the cycles
   std::optional<Path> picture = {};      ///< .svg, .png or .pdf
 };
@@ -215,6 +216,7 @@ struct ExtremesArguments {
   double confidence = 0.95;
   StepArguments steps = {};
   std::optional<std::string> from = {};  ///< leave out what comes before
+  std::vector<std::string> accept = {};  ///< "stop", "drift", "tail": what is refused otherwise
   std::optional<Path> output = {};       ///< .csv of the peaks
   std::optional<Path> picture = {};      ///< .svg, .png or .pdf
 };

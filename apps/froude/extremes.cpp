@@ -9,6 +9,7 @@
 #include "froude/option.hpp"
 #include "froude/outputs.hpp"
 #include "froude/record_file.hpp"
+#include "froude/record_looks.hpp"
 #include "froude/record_steps.hpp"
 #include "froude/report.hpp"
 #include "hydro/base/error.hpp"
@@ -34,6 +35,7 @@ struct Extremes {
   hs::BlockMaxima blocks;
   std::optional<StepsDone> prepared;  // where steps were asked for
   double missed = 0;                  // share of crests that lies between samples
+  std::vector<std::string> cautions;  // of the record itself
 };
 
 /// The level that a tenth of the peaks is above, or twenty where that is fewer, or half: many make a tail, and only
@@ -70,11 +72,57 @@ void require_exceedances(const Extremes& e) {
       fmt::format("take {:.6g} s or more, or a --threshold that more peaks are beyond", needed / e.tail.rate_hz));
 }
 
+/// A sensor at its stop tells nothing of larger values. Filters hide it, so the record is asked as it was measured.
+std::vector<std::string> look_at_sensor(RunResult record, const ExtremesArguments& a) {
+  if (a.from) drop_before(record, option_si("--from", *a.from, hydro::dim::time), a.file);
+  if (!accepts(a.accept, "stop"))
+    require_free_of_stops(record.signals.front(), a.lowest ? Ends::low : Ends::high, a.file);
+  return cautions_of_stops(record.signals);
+}
+
+/// The mean of a record that drifts is another at each time, and its largest values are those of one end alone.
+void require_no_drift(const RunResult& record) {
+  const hs::Trend trend = hs::trend_of(record.time, record.signals.front().values);
+  if (!trend.is_drift()) return;
+  throw hydro::InputError(
+      fmt::format("{} drifts by {:.4g} {} over the record, {:.2g} of its variance: largest values of another duration "
+                  "would need to know how the drift goes on",
+                  record.signals.front().name, trend.slope * (record.time.back() - record.time.front()),
+                  record.signals.front().units, trend.share),
+      {}, "take the drift off with --detrend, take a part without it by --from, or add --accept drift");
+}
+
+/// A law through the peaks that stays below the largest of them, for a time as long as the record's and longer, is the
+/// law of something else: of peaks that are cut off, or of others than the one spike among them.
+void require_record_within(const Extremes& e) {
+  if (e.duration < e.recorded) return;
+  constexpr double slack = 0.05;  // of what exceeds the threshold: moments place the end of a law no better
+  const double largest = *std::max_element(e.peaks.begin(), e.peaks.end()),
+               asked = std::max(0.99, *std::max_element(e.probabilities.begin(), e.probabilities.end())),
+               told = e.tail.largest_not_exceeded(e.duration, asked);
+  if (told >= largest - slack * (largest - e.tail.threshold)) return;
+  throw hydro::InputError(
+      fmt::format("the law of the peaks of {} tells that {:.5g} {} is not passed in {:.6g} s with {:g} %, and the "
+                  "record of {:.6g} s holds {:.5g} {}",
+                  e.signal.name, e.sign * told, e.signal.units, e.duration, 100 * asked, e.recorded, e.sign * largest,
+                  e.signal.units),
+      {},
+      "look at that peak: --outliers bridges a spike, --threshold takes a part of the peaks that has one law; or add "
+      "--accept tail");
+}
+
 Extremes find(const ExtremesArguments& a) {
+  require_known(a.accept, {"stop", "drift", "tail"});
   RunResult record = read_record(a.file);
   hydro::require(!record.time.empty(), "the record has no samples");
   record.signals = {signal_of(record, a.signal, a.file)};
+  std::vector<std::string> cautions = look_at_sensor(record, a);
   auto prepared = take_part(record, a);
+  if (!accepts(a.accept, "drift")) require_no_drift(record);
+  const MeasuredTime measured = measured_time(record.time);
+  record.time = measured.time;
+  const auto gaps = measured.cautions();
+  cautions.insert(cautions.end(), gaps.begin(), gaps.end());
   Extremes out{.signal = record.signals.front(),
                .sign = a.lowest ? -1.0 : 1.0,
                .recorded = record.time.back() - record.time.front(),
@@ -86,7 +134,8 @@ Extremes find(const ExtremesArguments& a) {
                .tail = {},
                .above = 0,
                .blocks = {},
-               .prepared = std::move(prepared)};
+               .prepared = std::move(prepared),
+               .cautions = std::move(cautions)};
   for (double& v : out.signal.values) v *= out.sign;
   out.missed = hs::missed_of_crests(record.time, out.signal.values);
   out.peaks = hs::crests(record.time, out.signal.values);
@@ -97,6 +146,7 @@ Extremes find(const ExtremesArguments& a) {
   out.above = static_cast<std::size_t>(
       std::count_if(out.peaks.begin(), out.peaks.end(), [&](double p) { return p > threshold; }));
   require_exceedances(out);
+  if (!accepts(a.accept, "tail")) require_record_within(out);
   const double block = a.block ? option_si("--block", *a.block, hydro::dim::time) : out.recorded / 20;
   out.maxima = hs::block_maxima(record.time, out.signal.values, block);
   out.blocks = hs::fit_maxima(out.maxima, block);
@@ -134,6 +184,7 @@ Report report_of(const Extremes& e) {
     out.one_of("estimates", estimate(e, e.tail, e.above, p, "peaks over threshold"));
     out.one_of("estimates", estimate(e, e.blocks, e.maxima.size(), p, "block maxima"));
   }
+  out.sentences("cautions", "caution: {}", e.cautions);
   out.sentences("cautions", "caution: {}", cautions_of_samples(e.missed, ", and levels are too low by as much"));
   if (e.duration > 10 * e.recorded)
     out.sentences("notes", "note: {}",

@@ -10,6 +10,7 @@
 #include "froude/option.hpp"
 #include "froude/outputs.hpp"
 #include "froude/record_file.hpp"
+#include "froude/record_looks.hpp"
 #include "froude/report.hpp"
 #include "froude/sn_curve.hpp"
 #include "hydro/base/error.hpp"
@@ -27,8 +28,9 @@ namespace hs = hydro::signal;
 struct Counted {
   Signal signal;
   std::vector<hs::Cycle> cycles;
-  double duration;  ///< s
-  double missed;    ///< share of crests that lies between samples
+  double duration;                    ///< s, of what was measured
+  double missed;                      ///< share of crests that lies between samples
+  std::vector<std::string> cautions;  ///< of the record itself
 
   double count() const {
     return std::accumulate(cycles.begin(), cycles.end(), 0.0, [](double sum, const auto& c) { return sum + c.count; });
@@ -51,8 +53,13 @@ Counted count(const FatigueArguments& a) {
   hydro::require(!record.time.empty(), "the record has no samples");
   if (a.from) drop_before(record, option_si("--from", *a.from, hydro::dim::time), a.file);
   const Signal& signal = signal_of(record, a.signal, a.file);
-  Counted out{signal, hs::rainflow(signal.values), record.time.back() - record.time.front(),
-              hs::missed_of_crests(record.time, signal.values)};
+  require_known(a.accept, {"stop"});
+  if (!accepts(a.accept, "stop")) require_free_of_stops(signal, Ends::both, a.file);
+  const MeasuredTime measured = measured_time(record.time);
+  Counted out{signal, hs::rainflow(signal.values), measured.time.back() - measured.time.front(),
+              hs::missed_of_crests(measured.time, signal.values), measured.cautions()};
+  const auto stops = cautions_of_stops({&signal, 1});
+  out.cautions.insert(out.cautions.end(), stops.begin(), stops.end());
   hydro::require(!out.cycles.empty(), "{} never changes: it has no cycles", a.signal);
   return out;
 }
@@ -69,6 +76,7 @@ Report report_of(const Counted& c, const std::optional<SnOfUnit>& sn) {
   out.say("{}: {} cycles in {:.6g} s, the largest range {:.5g} {}", fact("signal", c.signal.name),
           fact("cycles", c.count()), fact("duration_s", c.duration), fact("largest_range", c.largest()),
           fact("unit", c.signal.units));
+  out.sentences("cautions", "caution: {}", c.cautions);
   out.sentences("cautions", "caution: {}", cautions_of(c, sn));
   if (!sn) return out.say("no damage without an S-N curve: --sn-range, --sn-cycles, --sn-slope");
   const hs::SnCurve& curve = sn->curve;

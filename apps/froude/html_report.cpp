@@ -36,6 +36,9 @@ Json contents_of_hdf5(const Path& path, const html::Options& options) {
   if (kind == "froude modes") return html::modes_contents(path);
   if (kind == "froude field") return html::field_contents(path, options);
   if (kind == "froude psd") return html::spectra_contents(path);
+  if (kind == "froude stability")
+    throw InputError("a report does not draw the map of `froude stability`", {.file = path.string()},
+                     "give its table, which it draws: froude stability SCENE --csv map.csv");
   throw InputError(
       kind.empty() ? "this is no result of froude" : fmt::format("a report does not show results of `{}`", kind),
       {.file = path.string()}, "give results of `froude run`, `rao`, `modes`, `field`, `waves make` or `psd`");

@@ -15,6 +15,7 @@
 
 #include "answers/camera_track.hpp"
 #include "dynamics/spatial/rotation.hpp"
+#include "fit/camera/meeting.hpp"
 #include "fit/camera/space.hpp"
 #include "froude/kinematics_bodies.hpp"
 #include "froude/report.hpp"
@@ -62,17 +63,32 @@ class TableWithGaps {
 struct OneCamera {
   FilmedTrack filmed;
   fc::Eye eye;
+  bool at_one_instant;  ///< all rows of a frame: no shutter is stated
 };
 OneCamera camera_of(const scene::FitScene& scene, const FilmAsked& film) {
   const scene::CameraTable& camera = film.camera;
   FilmedTrack filmed = filmed_track(scene, film.model, film.record);
   const fc::Eye eye = scene::placed(
       camera.place, [&] { return fc::eye_of(filmed.view, camera.along(), camera.pivot_at[1 - camera.along()]); });
-  return {std::move(filmed), eye};
+  return {std::move(filmed), eye, !camera.shutter};
 }
 
-/// Motions from rest of a body, each followed by its standard deviation; angles near those before.
-std::vector<double> motions_of(const fc::SpacePose& pose, const scene::Body& body, Vector3d& angles) {
+/// What a shutter that nobody has stated would do, of the film in which markers move most.
+std::vector<std::string> notes_of_shutters(const std::vector<const OneCamera*>& cameras) {
+  double fastest = 0;
+  for (const OneCamera* camera : cameras)
+    for (const fc::Marker& m : camera->filmed.track.markers)
+      for (std::size_t i = 1; i < m.seen.size() && camera->at_one_instant; ++i)
+        if (m.seen[i] && m.seen[i - 1]) fastest = std::max(fastest, (m.seen[i]->at - m.seen[i - 1]->at).norm());
+  if (!(fastest > 0)) return {};
+  return {
+      fmt::format("each frame is taken for one instant: a rolling shutter displaces the fastest marker, which goes "
+                  "{:.3g} px a frame, by up to that, and deviations do not count it; [camera] shutter takes it off",
+                  fastest)};
+}
+
+/// Motions from rest of a body, each followed by its standard deviation times a factor; angles near those before.
+std::vector<double> motions_of(const fc::SpacePose& pose, const scene::Body& body, Vector3d& angles, double widened) {
   angles = dynamics::roll_pitch_yaw(pose.attitude, angles);
   const Vector3d moved = pose.place - body.position;
   // A small turn of roll, pitch and yaw about the axes that each of them has: yaw first, then pitch, then roll.
@@ -86,7 +102,7 @@ std::vector<double> motions_of(const fc::SpacePose& pose, const scene::Body& bod
   std::vector<double> out;
   for (int k = 0; k < 6; ++k) {
     out.push_back(k < 3 ? moved[k] : angles[k - 3]);
-    out.push_back(sd[k]);
+    out.push_back(widened * sd[k]);
   }
   return out;
 }
@@ -95,6 +111,7 @@ struct FilmedInSpace {
   const scene::Body* body;
   std::size_t markers;
   fc::SpacePoses poses;
+  double widened;  ///< deviations, by this factor
 };
 
 std::vector<FilmedInSpace> bodies_in_space(const scene::Scene& scene, const OneCamera& camera) {
@@ -105,10 +122,11 @@ std::vector<FilmedInSpace> bodies_in_space(const scene::Scene& scene, const OneC
     const scene::Body& body = scene.bodies[static_cast<std::size_t>(b)];
     const auto on = markers_on(scene, b, markers);
     if (on.size() < 4) continue;
-    out.push_back({&body, on.size(), scene::placed(body.place, [&] {
-                     return fc::poses_in_space(camera.filmed.track, camera.eye, on, body.position,
-                                               camera.filmed.deviation);
-                   })});
+    fc::SpacePoses poses = scene::placed(body.place, [&] {
+      return fc::poses_in_space(camera.filmed.track, camera.eye, on, body.position, camera.filmed.deviation);
+    });
+    const double widened = fc::widening_of(poses);
+    out.push_back({&body, on.size(), std::move(poses), widened});
   }
   if (out.empty())
     throw InputError("no body of the scene has four markers on it, named as its points and joints", {.file = "--space"},
@@ -148,6 +166,12 @@ void say_misfits(const std::vector<FilmedInSpace>& bodies, const OneCamera& came
     if (!b.poses.misfits.empty())
       notes.push_back(fmt::format("markers of \"{}\" fit no pose at {}: are names exchanged, or is a sighting wrong?",
                                   b.body->name, times_of(b.poses.misfits, camera.filmed)));
+  for (const FilmedInSpace& b : bodies)
+    if (b.widened > 1)
+      notes.push_back(
+          fmt::format("pixels of \"{}\" stray by {:.3g} of their errors throughout, which is no chance: "
+                      "deviations are widened by as much",
+                      b.body->name, b.widened));
   report.sentences("misfits", "note: {}", notes);
 }
 
@@ -171,7 +195,7 @@ void six_motions(const KinematicsArguments& a, Report& report) {
     table.time(camera.filmed.track.time[i]);
     for (std::size_t b = 0; b < bodies.size(); ++b) {
       if (const auto& pose = bodies[b].poses.pose[i])
-        table.add(motions_of(*pose, *bodies[b].body, angles[b]));
+        table.add(motions_of(*pose, *bodies[b].body, angles[b], bodies[b].widened));
       else
         table.gap(12);
       if (const double stray = bodies[b].poses.stray[i]; std::isfinite(stray))
@@ -194,6 +218,7 @@ void six_motions(const KinematicsArguments& a, Report& report) {
                fact("stray", frames > 0 ? std::sqrt(squares / frames) : 0.0));
   }
   say_misfits(bodies, camera, report);
+  report.sentences("notes", "note: {}", notes_of_shutters({&camera}));
 }
 
 /// The name of the other film, where a scene has two.
@@ -224,6 +249,61 @@ std::pair<OneCamera, OneCamera> two_cameras(const KinematicsArguments& a) {
   return {camera_of(scene, film_asked(scene, a.film)), camera_of(own, film_asked(own, {}))};
 }
 
+/// Places of markers of two films whose rays meet, and what is said of those that do not.
+struct Met {
+  fc::SpaceTrack points;
+  double widened = 1;  ///< deviations, by this factor
+  std::vector<std::string> notes = {};
+};
+
+/// \throws hydro::InputError where rays meet at another offset of the clocks, or in most of the film at none
+void refuse_apart(const fc::SeenByEye& first, const fc::SeenByEye& second, double stray, std::size_t apart,
+                  int points) {
+  constexpr std::size_t one_in = 10;  // as of poses
+  if (const auto later = fc::clock_of_second(first, second))
+    throw InputError(
+        fmt::format("rays of the two cameras pass each other by {:.3g} of their errors, and meet where the second film "
+                    "is taken {:.4g} s {}",
+                    stray, std::abs(*later), *later > 0 ? "later" : "earlier"),
+        {.file = "--second"},
+        fmt::format("add {:+.4g} s to the offset of the second film's clock: [camera] offset", *later));
+  if (one_in * apart > apart + static_cast<std::size_t>(points))
+    throw InputError(
+        fmt::format("at {} of {} places the rays of the two cameras pass each other by more than their errors allow",
+                    apart, apart + static_cast<std::size_t>(points)),
+        {.file = "--second"},
+        "state the deviation that the pixels have; or names of markers, a lens or the pose of a camera are wrong");
+}
+
+std::string told_apart(const fc::SpaceTrack& points, const std::vector<std::pair<std::size_t, std::size_t>>& apart,
+                       double begin) {
+  constexpr std::size_t most = 8;
+  std::vector<std::string> which;
+  for (const auto& [marker, frame] : apart)
+    if (which.size() < most)
+      which.push_back(fmt::format("{} at {:.6g} s", points.markers[marker], points.time[frame] + begin));
+  if (apart.size() > most) which.push_back(fmt::format("{} more", apart.size() - most));
+  return fmt::format(
+      "rays pass each other by more than their errors allow, and these places are left out: {}; are "
+      "names exchanged, or is a sighting wrong?",
+      fmt::join(which, ", "));
+}
+
+Met met(const fc::SeenByEye& first, const fc::SeenByEye& second, double begin) {
+  Met out{.points = fc::joined(first, second)};
+  const double stray = fc::stray_of(out.points);
+  const auto apart = fc::leave_out_apart(out.points);
+  out.widened = fc::widening_of(out.points);
+  if (!apart.empty() || out.widened > 1) refuse_apart(first, second, stray, apart.size(), out.points.points);
+  if (!apart.empty()) out.notes.push_back(told_apart(out.points, apart, begin));
+  if (out.widened > 1)
+    out.notes.push_back(
+        fmt::format("rays pass each other by {:.3g} of their errors throughout, which is no chance: "
+                    "deviations are widened by as much",
+                    out.widened));
+  return out;
+}
+
 void places_by_two(const KinematicsArguments& a, Report& report) {
   const auto seen_by = [](const OneCamera& c, double later) {
     fc::SeenByEye out{c.filmed.track, c.eye, c.filmed.deviation};
@@ -232,9 +312,11 @@ void places_by_two(const KinematicsArguments& a, Report& report) {
   };
   const auto cameras = two_cameras(a);
   const OneCamera &first = cameras.first, &second = cameras.second;
-  const fc::SpaceTrack points = scene::placed({.file = "--second"}, [&] {
-    return fc::joined(seen_by(first, 0), seen_by(second, second.filmed.begin - first.filmed.begin));
+  const Met both = scene::placed({.file = "--second"}, [&] {
+    return met(seen_by(first, 0), seen_by(second, second.filmed.begin - first.filmed.begin), first.filmed.begin);
   });
+  const fc::SpaceTrack& points = both.points;
+  const double squared = both.widened * both.widened;
   std::vector<std::string> columns;
   for (const auto& m : points.markers) {
     for (const char* axis : {"x", "y", "z"}) columns.push_back(fmt::format("{}_{} [m]", m, axis));
@@ -246,7 +328,7 @@ void places_by_two(const KinematicsArguments& a, Report& report) {
     table.time(points.time[i]);
     for (const auto& of_marker : points.point)
       if (const auto& p = of_marker[i]) {
-        const Eigen::Matrix3d& c = p->covariance;
+        const Eigen::Matrix3d c = squared * p->covariance;
         table.add({p->at.x(), p->at.y(), p->at.z(), c(0, 0), c(0, 1), c(0, 2), c(1, 1), c(1, 2), c(2, 2)});
       } else {
         table.gap(9);
@@ -262,7 +344,7 @@ void places_by_two(const KinematicsArguments& a, Report& report) {
     for (const auto& p : points.point[m])
       if (p) squares += p->stray * p->stray, variance += p->covariance.diagonal(), ++frames;
     if (frames == 0) continue;
-    const Vector3d sd = (variance / frames).cwiseSqrt();
+    const Vector3d sd = both.widened * (variance / frames).cwiseSqrt();
     report.row("marker",
                "{}: in {} frames, standard deviations {:.2g}, {:.2g} and {:.2g} m along x, y and z; rays pass each "
                "other by {:.2g} of their errors, between frames of the second film {:.3g} s apart",
@@ -270,6 +352,8 @@ void places_by_two(const KinematicsArguments& a, Report& report) {
                fact("deviation_y_m", sd.y()), fact("deviation_z_m", sd.z()), fact("stray", std::sqrt(squares / frames)),
                fact("second_spacing_s", points.spacing));
   }
+  report.sentences("apart", "note: {}", both.notes);
+  report.sentences("notes", "note: {}", notes_of_shutters({&first, &second}));
 }
 
 }  // namespace

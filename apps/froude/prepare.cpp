@@ -8,6 +8,7 @@
 #include "froude/option.hpp"
 #include "froude/outputs.hpp"
 #include "froude/record_file.hpp"
+#include "froude/record_looks.hpp"
 #include "froude/record_steps.hpp"
 #include "froude/report.hpp"
 #include "froude/series.hpp"
@@ -91,6 +92,8 @@ void prepare(const PrepareArguments& a, const Console& console) {
   RunResult record = read_record(a.file);
   hydro::require(!record.time.empty(), "the record has no samples");
   record.signals = signals_like(record, a.signals.empty() ? std::vector<std::string>{"*"} : a.signals, a.file);
+  const std::vector<std::string> stops =
+      names_a_step(a.steps) ? std::vector<std::string>() : cautions_of_stops(record.signals);
   const auto done = take_steps_of_part(record, a.steps, record_part(a.from, a.to), a.file);
   const std::vector<SignalRate> rates = add_rates(record, a);
   write_series_csv(a.output, record.time, record.signals);
@@ -99,6 +102,7 @@ void prepare(const PrepareArguments& a, const Console& console) {
   Report report;
   if (done) report.part("prepared", froude::report_of(*done));
   report.part("", report_of(record, rates));
+  report.sentences("cautions", "caution: {}", stops);
   tell(report.wrote(a.output).wrote(a.picture), console);
 }
 

@@ -310,6 +310,8 @@ void add_fatigue(CLI::App& app, Request& request) {
   command->add_option("-s,--signal", arguments->signal, "whose cycles are counted")->required();
   command->add_option("--from", arguments->from, "leave out what comes before: \"60 s\"");
   add_sn_curve(*command, arguments->sn);
+  command->add_option("--accept", arguments->accept, "what is refused otherwise: stop (a sensor at its stop)")
+      ->allow_extra_args(false);
   command->add_option("-o,--output", arguments->output, "range, mean and count of each cycle (.csv)");
   command->add_option("--picture", arguments->picture, "plot (.svg, .png, .pdf)");
   calls(*command, request, arguments, fatigue);
@@ -330,6 +332,11 @@ void add_extremes(CLI::App& app, Request& request) {
   command->add_option("--confidence", arguments->confidence, "level of the interval")->capture_default_str();
   add_steps(*command, arguments->steps);
   command->add_option("--from", arguments->from, "leave out what comes before: \"60 s\"");
+  command
+      ->add_option("--accept", arguments->accept,
+                   "what is refused otherwise: stop (a sensor at its stop), drift (of the record), tail (a law that "
+                   "ends below the record's own largest value)")
+      ->allow_extra_args(false);
   command->add_option("-o,--output", arguments->output, "the peaks (.csv)");
   command->add_option("--picture", arguments->picture, "plot (.svg, .png, .pdf)");
   calls(*command, request, arguments, extremes);

@@ -50,6 +50,8 @@ Json field_contents(const std::filesystem::path& path, const Options& options);
 Json spectra_contents(const std::filesystem::path& path);
 /// Tables of `froude psd`, `froude response` and others, .csv, along their first column. \throws hydro::InputError
 Json table_contents(const std::filesystem::path& path);
+/// Warnings of a case without the word "warning: " before each, which the page writes itself.
+std::string without_the_word(std::string warnings);
 /// A folder of `froude sweep`. \throws hydro::InputError
 Json sweep_contents(const std::filesystem::path& folder);
 /// Estimates that `froude fit -o` has written, .toml. \throws hydro::InputError

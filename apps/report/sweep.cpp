@@ -1,5 +1,7 @@
 // A sweep as a table of its cases; the page makes curves and maps of it.
 #include <algorithm>
+#include <string>
+#include <string_view>
 
 #include "hydro/base/error.hpp"
 #include "report/contents.hpp"
@@ -31,6 +33,13 @@ Json pictures_told(const sweep::Study& study) {
 
 }  // namespace
 
+std::string without_the_word(std::string warnings) {
+  constexpr std::string_view word = "warning: ";
+  for (std::size_t at = warnings.find(word); at != std::string::npos; at = warnings.find(word, at))
+    warnings.erase(at, word.size());
+  return warnings;
+}
+
 Json sweep_contents(const std::filesystem::path& folder) {
   const sweep::Store store(folder);
   const sweep::Identity& of = store.identity();
@@ -52,7 +61,7 @@ Json sweep_contents(const std::filesystem::path& folder) {
     number.push_back(row.number);
     state.push_back(sweep::name_of(row.state));
     if (!row.reason.empty()) why.push_back({row.number, sweep::name_of(row.state), row.reason});
-    if (!row.warnings.empty()) why.push_back({row.number, "warning", row.warnings});
+    if (!row.warnings.empty()) why.push_back({row.number, "warning", without_the_word(row.warnings)});
   }
   for (std::size_t i = 0; i < of.axes.size(); ++i) {
     Json values = Json::array();

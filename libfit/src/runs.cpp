@@ -94,20 +94,40 @@ Weighted solve(const Design& d, double between_squared) {
   return w;
 }
 
+/// The slope of the likelihood over τ², of which it is twice, and the information. (F31)
+struct SlopeOfLikelihood {
+  double slope, information;
+};
+SlopeOfLikelihood slope_of_likelihood(const Design& d, double squared, bool restricted) {
+  const Weighted w = solve(d, squared);
+  const Eigen::MatrixXd wx = w.weights.asDiagonal() * d.x;
+  Eigen::MatrixXd p = w.weights.asDiagonal();
+  if (restricted) p -= wx * w.inverse * wx.transpose();
+  return {w.weights.cwiseProduct(w.residuals).squaredNorm() - p.trace(), p.squaredNorm()};
+}
+
+/// Where the likelihood rises no more, by halving: of three runs whose errors are very different Fisher's steps may go
+/// to and fro for ever.
+double between_runs_by_halving(const Design& d, bool restricted) {
+  const auto rises = [&](double squared) { return slope_of_likelihood(d, squared, restricted).slope > 0; };
+  if (!rises(0)) return 0;
+  double low = 0, high = d.own.maxCoeff();
+  while (rises(high)) low = high, high *= 2;
+  for (int round = 0; round < 200 && high - low > 1e-12 * (high + d.own.minCoeff()); ++round)
+    (rises((low + high) / 2) ? low : high) = (low + high) / 2;
+  return (low + high) / 2;
+}
+
 /// τ² by Fisher scoring; `restricted`: the degrees of freedom of the coefficients are counted (REML). (F31)
 double between_runs(const Design& d, bool restricted) {
   double squared = std::max(0.0, solve(d, 0).residuals.squaredNorm() / static_cast<double>(d.y.size()) - d.own.mean());
   for (int round = 0; round < 200; ++round) {
-    const Weighted w = solve(d, squared);
-    const Eigen::MatrixXd wx = w.weights.asDiagonal() * d.x;
-    Eigen::MatrixXd p = w.weights.asDiagonal();
-    if (restricted) p -= wx * w.inverse * wx.transpose();
-    const double step = (w.weights.cwiseProduct(w.residuals).squaredNorm() - p.trace()) / p.squaredNorm();
-    const double next = std::max(0.0, squared + step);
+    const auto [slope, information] = slope_of_likelihood(d, squared, restricted);
+    const double next = std::max(0.0, squared + slope / information);
     if (std::abs(next - squared) <= 1e-12 * (next + d.own.minCoeff())) return next;
     squared = next;
   }
-  throw hydro::NumericsError("the search for what runs differ by has no end: 200 steps of it do not settle");
+  return between_runs_by_halving(d, restricted);
 }
 
 /// Each run from the others: rms of what is missed.

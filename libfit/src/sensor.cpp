@@ -50,6 +50,15 @@ End end_of(std::span<const double> values, Before before) {
   return out;
 }
 
+std::size_t most_in_a_row(std::span<const double> values, double at) {
+  std::size_t most = 0, now = 0;
+  for (const double x : values) {
+    now = x < at || x > at ? 0 : now + 1;
+    most = std::max(most, now);
+  }
+  return most;
+}
+
 /// The different values of a record in increasing order; none where they are more than `most`.
 std::vector<double> levels_of(std::span<const double> values, std::size_t most) {
   std::unordered_set<double> seen;
@@ -72,6 +81,8 @@ std::optional<Clipping> find_clipping(std::span<const double> values) {  // (F19
   if (stops(low)) c.at_low = low.count;
   if (stops(high)) c.at_high = high.count;
   if (c.at_low + c.at_high == 0) return {};
+  if (c.at_low > 0) c.low_in_a_row = most_in_a_row(values, c.low);
+  if (c.at_high > 0) c.high_in_a_row = most_in_a_row(values, c.high);
   return c;
 }
 
@@ -152,8 +163,42 @@ void bridge(std::vector<double>& values, std::span<const std::size_t> indices) {
   }
 }
 
+namespace {
+
+/// The last digit that all times have, a power of ten; 0 for finer ones than a microsecond.
+double last_digit(std::span<const double> time) {
+  for (double digit = 1; digit > 0.5e-6; digit /= 10) {
+    constexpr double rounding = 1e-6;  // of a digit: times of a day have their own
+    const auto is_whole = [&](double t) { return std::abs(t / digit - std::round(t / digit)) < rounding; };
+    if (std::all_of(time.begin(), time.end(), is_whole)) return digit;
+  }
+  return 0;
+}
+
+/// (F123) The step of times that are even but for their last digit, to which they were rounded. None where they are
+/// even to 2 % as they stand, or are not even with that.
+std::optional<double> step_of_rounded(std::span<const double> time) {
+  const double step = (time.back() - time.front()) / static_cast<double>(time.size() - 1);
+  double farthest = 0;
+  for (std::size_t j = 0; j < time.size(); ++j)
+    farthest = std::max(farthest, std::abs(time[j] - time[0] - step * static_cast<double>(j)));
+  if (!(step > 0) || farthest < 0.02 * step) return std::nullopt;
+  const double digit = last_digit(time);
+  // Half of it where it stands, and half at the ends, between which the grid is laid; less than half a step is
+  // rounding.
+  if (digit >= step / 2 || farthest > digit * (1 + 1e-6)) return std::nullopt;
+  return step;
+}
+
+}  // namespace
+
 EvenGrid even_grid(std::span<const double> time_s, double longest_gap_s) {  // (F22)
   hydro::require(time_s.size() >= 3, "a record needs at least three samples, got {}", time_s.size());
+  if (const auto step = step_of_rounded(time_s)) {
+    EvenGrid rounded{.step = *step, .time = std::vector<double>(time_s.size()), .filled = {}};
+    for (std::size_t k = 0; k < time_s.size(); ++k) rounded.time[k] = time_s[0] + *step * static_cast<double>(k);
+    return rounded;
+  }
   std::vector<double> steps;
   for (std::size_t j = 1; j < time_s.size(); ++j) steps.push_back(time_s[j] - time_s[j - 1]);
   std::vector<double> order = steps;

@@ -367,6 +367,10 @@ def sweep(study: FileName, folder: Optional[FileName] = None, *, threads: Option
 
 def _series(name: str, values: Sequence[float]) -> np.ndarray:
     """Values of a signal in time, as the program takes them."""
+    if np.ma.isMaskedArray(values) and np.ma.is_masked(values):
+        raise ValueError(f"{np.ma.count_masked(values)} of {np.size(values)} samples of \"{name}\" are masked, and a "
+                         "record has a number at each time: leave these times out of all signals, "
+                         "{\"time\": time[~mask], ...}, with uneven=True")
     series = np.asarray(values)
     if series.ndim != 1 or series.dtype.kind not in "fiub":
         raise ValueError(f"\"{name}\" has the shape {series.shape} and the type {series.dtype}; a signal of a record is "

@@ -8,6 +8,7 @@
 
 #include "hydro/base/base64.hpp"
 #include "report/arrays.hpp"
+#include "report/contents.hpp"
 #include "report/page.hpp"
 #include "report/spectra_of_run.hpp"
 
@@ -88,6 +89,12 @@ TEST(ReportSpectra, OfTooShortARecordSayWhy) {
   run.time = {0, 1, 2};
   run.signals = {{"a", "m", "", {0, 1, 0}}};
   EXPECT_TRUE(html::spectra_of(run, 0).contains("missing"));
+}
+
+// The page writes the word itself: "warning: warning: the energy residual is ...".
+TEST(ReportOfASweep, SaysWarningOnce) {
+  EXPECT_EQ(html::without_the_word("warning: x is off; warning: y, too"), "x is off; y, too");
+  EXPECT_EQ(html::without_the_word("x is off"), "x is off");
 }
 
 TEST(ReportPage, LetsNoTextEndAnElement) {

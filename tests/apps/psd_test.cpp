@@ -96,6 +96,9 @@ TEST_F(Psd, TakesARecordWithGaps) {
   EXPECT_NEAR(j["signals"]["wave"]["tp_s"].get<double>(), 8, 0.05);
   EXPECT_THAT(text({.file = folder / "g.csv", .segment = "80 s", .uneven = true}), testing::Not(HasSubstr("alias")));
   EXPECT_THAT(text({.file = record("s.csv", 7), .segment = "80 s", .uneven = true}), HasSubstr("alias"));
+  // A line has nothing beside it but what the gap leaks.
+  EXPECT_THAT(text({.file = folder / "g.csv", .segment = "80 s", .uneven = true}),
+              HasSubstr("gaps let other frequencies leak into the density of wave"));
   EXPECT_THAT([&] { json({.file = folder / "g.csv", .segment = "80 s"}); },
               ThrowsMessage<InputError>(HasSubstr("even")));
   EXPECT_THAT([&] { json({.file = folder / "g.csv", .tapers = 3, .uneven = true}); },
@@ -159,7 +162,9 @@ TEST_F(Psd, ExtremesAreThoseOfTheRecordWithoutItsSpikes) {
   for (std::size_t j = 0; j < wave.size(); ++j) wave[j] *= 1 - 0.3 * std::cos(0.01 * time[j]);
   const double largest = *std::max_element(wave.begin(), wave.end());
   wave[1234] += 7;
-  const auto as_it_is = told({.file = csv(), .signal = "wave", .threshold = "1 m"}),
+  EXPECT_THAT([&] { told({.file = csv(), .signal = "wave", .threshold = "1 m"}); },
+              ThrowsMessage<InputError>(HasSubstr("--outliers bridges a spike")));
+  const auto as_it_is = told({.file = csv(), .signal = "wave", .threshold = "1 m", .accept = {"tail"}}),
              cleaned = told({.file = csv(), .signal = "wave", .threshold = "1 m", .steps = {.outliers = "2.1 s"}});
   EXPECT_GT(as_it_is["extreme"].get<double>(), 5);
   EXPECT_NEAR(cleaned["extreme"].get<double>(), largest, 1e-6);  // digits of the file; the spike is on no crest

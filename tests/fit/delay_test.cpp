@@ -107,6 +107,19 @@ TEST(DelayOfTheForce, IsFoundThoughTheMotionIsNoisy) {
   for (const int count : held) EXPECT_GE(count, 37);
 }
 
+// Noise of 3 mm makes the motion that a delay is fitted with so wrong that one of 0.4 s came out, and cd was refused,
+// though what is left by it is half as large again.
+TEST(DelayOfTheForce, IsNoneWhereItMakesTheFitWorse) {
+  for (const std::uint64_t set : {5u, 12u, 15u, 28u}) {
+    const auto solved =
+        fit::morison::solve(froude_test::moved_run({.position = 3e-3, .force = 0.8, .step_s = 0.02}, set));
+    ASSERT_EQ(solved.runs.size(), 1u);
+    EXPECT_TRUE(solved.runs[0].fit.cd.value) << set << ": " << solved.runs[0].fit.cd.why_not;
+    for (const std::string& caution : solved.runs[0].prepared.cautions)
+      EXPECT_EQ(caution.find("the force comes"), std::string::npos) << set << ": " << caution;
+  }
+}
+
 TEST(DelayOfTheForce, BeyondTheLongestIsNotToldNorWhatGoesWithIt) {
   const auto r = fit::fit_morison_and_delay(cylinder, made(0.36, 0.73, 0.1, 5), 0.4).fit;
   EXPECT_FALSE(r.delay->value);

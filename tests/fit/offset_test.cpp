@@ -173,6 +173,19 @@ TEST(Delay, OfTwoChannelsOfOneRecordIsWithinItsInterval) {
   EXPECT_GE(held, 89);
 }
 
+// A logger whose clock runs 0.15 % fast is 0.12 s apart at the end of 80 s: halves tell 0.057 s of that.
+TEST(Delay, OfClocksThatRunApartIsRefused) {
+  const Sea sea(5, 0.6, 0.3);
+  fit::delay::Problem problem{{two_probes(5, sea, sea, 0.4, 0.05)}, {}};
+  problem.options.search.longest = 1.5;
+  EXPECT_NO_THROW(solve(problem));
+  for (double& t : problem.runs[0].second_time) t *= 1.0015;
+  EXPECT_THAT([&] { solve(problem); },
+              testing::ThrowsMessage<hydro::InputError>(testing::AllOf(testing::HasSubstr("probes.csv"),
+                                                                       testing::HasSubstr("run apart by 1.4 s in 1000"),
+                                                                       testing::HasSubstr("correct the rate"))));
+}
+
 TEST(Delay, OfThreeRunsIsToldTogether) {
   fit::delay::Problem problem{{}, {}};
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {

@@ -53,6 +53,26 @@ TEST(Runs, OfEqualErrorGiveTheFamiliarMeanAndScatter) {
   EXPECT_NEAR(f.intervals[0].high - mean, 2.776445 * std::sqrt(s2 / 5), 1e-6);  // t of 4 degrees of freedom
 }
 
+// Fisher's steps go to and fro for ever between these three, of which one is known two hundred times better.
+TEST(Runs, OfVeryDifferentErrorsHaveTheLargestLikelihood) {
+  const std::vector<double> y{1.19995, 1.17744, 1.1757}, own{0.00012, 0.02949, 0.028};
+  std::vector<RunEstimate> all;
+  for (std::size_t i = 0; i < 3; ++i) all.push_back({y[i], own[i], 1, 1, 1});
+  const auto likelihood = [&](double squared) {
+    double weights = 0, mean = 0, logarithms = 0, squares = 0;
+    for (std::size_t i = 0; i < 3; ++i) weights += 1 / (own[i] * own[i] + squared);
+    for (std::size_t i = 0; i < 3; ++i) mean += y[i] / (own[i] * own[i] + squared) / weights;
+    for (std::size_t i = 0; i < 3; ++i) {
+      logarithms += std::log(own[i] * own[i] + squared);
+      squares += (y[i] - mean) * (y[i] - mean) / (own[i] * own[i] + squared);
+    }
+    return -0.5 * (logarithms + std::log(weights) + squares);
+  };
+  const double between = fit::fit_runs(all, Law::constant).between, told = likelihood(between * between);
+  for (double squared = 1e-9; squared < 1e-2; squared *= 1.1)
+    EXPECT_GT(told, likelihood(squared) - 1e-9) << squared;  // 1e-9: rounding of logarithms
+}
+
 TEST(Runs, CoverTheirLawInMostSets) {
   int slope = 0, level = 0, next = 0;
   constexpr int sets = 500;

@@ -122,5 +122,17 @@ TEST(EvenGrid, RefusesTimeThatStandsStillOrWanders) {
   EXPECT_THROW(fit::even_grid(std::vector{0.0, 1.0, 2.2, 3.0, 4.0}, 9), hydro::InputError);
 }
 
+// 30 Hz to two digits: 0.03, 0.03, 0.04 s, up to 0.15 of a step off. A clock that is uneven by more is no rounding.
+TEST(EvenGrid, IsThatOfTimesRoundedToTheirLastDigit) {
+  std::vector<double> time;
+  for (int j = 0; j < 900; ++j) time.push_back(std::round(100 * (7.3 + j / 30.0)) / 100);
+  const auto grid = fit::even_grid(time, 0);
+  EXPECT_TRUE(grid.filled.empty());
+  EXPECT_NEAR(grid.step, 1 / 30.0, 0.01 / 899);  // a last digit over the record
+  for (std::size_t j = 0; j < time.size(); ++j) ASSERT_NEAR(grid.time[j], time[j], 0.01);
+  time[401] += 0.01;  // rounded up already
+  EXPECT_THROW(fit::even_grid(time, 0), hydro::InputError);
+}
+
 }  // namespace
 }  // namespace sensor_test

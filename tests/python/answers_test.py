@@ -110,6 +110,9 @@ def test_what_is_no_record_no_result_and_no_name_is_refused_in_words(examples, t
         froude.psd({"time": time, "x": np.zeros((101, 2))})
     with pytest.raises(ValueError, match='"x" has the shape .* complex128'):
         froude.psd({"time": time, "x": np.exp(1j * time)})
+    masked = np.ma.masked_where(np.abs(np.sin(time)) > 0.9, np.sin(time))
+    with pytest.raises(ValueError, match='samples of "x" are masked.*time\\[~mask\\]'):
+        froude.psd({"time": time, "x": masked})
     with pytest.raises(ValueError, match="one result at least"):
         froude.export([], tmp_path / "out.csv")
     with pytest.raises(froude.InputError, match="cannot end in"):

@@ -206,6 +206,7 @@ struct Seen {
   fc::Detection left_out;    ///< sums over the frames; no discs
   fc::Picture first;
   bool uneven = false;
+  std::vector<std::size_t> unstamped;  ///< frames of the film whose time OpenCV does not tell
 };
 
 /// Reads frames in batches, of which threads look at one each.
@@ -249,7 +250,7 @@ class Watching {
       fc::Picture picture;
       double stamp = 0;
       if (!reader_.next(picture, stamp, colour_)) return false;
-      const double time = rate_ > 0 ? static_cast<double>(read_) / rate_ : stamp;
+      const double time = time_of_frame(stamp);
       ++read_;
       if (time > to_) return false;
       if (time < from_) continue;
@@ -264,6 +265,17 @@ class Watching {
       pictures.push_back(std::move(picture));
     }
     return true;
+  }
+
+  /// By the rate that is given, else by the frame's own stamp. Of the last frames of films with B-frames OpenCV tells
+  /// 0: these go on from the one before by the rate of the file.
+  double time_of_frame(double stamp) {
+    if (rate_ > 0) return static_cast<double>(read_) / rate_;
+    if (read_ > 0 && !(stamp > last_) && reader_.frame_rate() > 0) {
+      out_.unstamped.push_back(read_ + 1);
+      return last_ += 1 / reader_.frame_rate();
+    }
+    return last_ = stamp;
   }
 
   void look(const std::vector<fc::Picture>& pictures) {
@@ -289,16 +301,26 @@ class Watching {
     const double rate = rate_ > 0 ? rate_ : reader_.frame_rate();
     bool even = rate > 0;
     for (std::size_t i = 0; i < out_.frames.size() && even; ++i)
-      even = std::abs(out_.frames[i].time - static_cast<double>(out_.number[i] - 1) / rate) < 1.1e-3;
+      even = is_unstamped(out_.number[i]) ||
+             std::abs(out_.frames[i].time - static_cast<double>(out_.number[i] - 1) / rate) < 1.1e-3;
     for (std::size_t i = 0; i < out_.frames.size() && even; ++i)
       out_.frames[i].time = static_cast<double>(out_.number[i] - 1) / rate;
     out_.uneven = !even;
+    if (out_.uneven && !out_.unstamped.empty())
+      throw InputError(fmt::format("the film tells no time of {} of its {} frames, the first of them frame {}, and the "
+                                   "others are not even",
+                                   out_.unstamped.size(), read_, out_.unstamped.front()),
+                       {}, "end before it (--to), or convert the film: ffmpeg -i FILM -c:v ffv1 film.avi");
+  }
+
+  bool is_unstamped(std::size_t number) const {
+    return std::binary_search(out_.unstamped.begin(), out_.unstamped.end(), number);
   }
 
   film::FilmReader& reader_;
   Finder finder_;
   std::optional<film::Colour> colour_;
-  double from_, to_, rate_ = 0;
+  double from_, to_, rate_ = 0, last_ = 0;
   std::size_t read_ = 0;
   fc::Picture before_;
   Seen out_;
@@ -354,7 +376,7 @@ void add_markers(const fc::Assigned& assigned, Report& report) {
 }
 
 std::vector<std::string> cautions_of(const TrackArguments& a, std::size_t stated, const Seen& seen,
-                                     const fc::Assigned& assigned) {
+                                     const fc::Assigned& assigned, const std::string& lossy_codec) {
   std::vector<std::string> out;
   const std::size_t frames = assigned.track.frames();
   // Files that only tell how long they last state a frame or two more than there are.
@@ -372,6 +394,24 @@ std::vector<std::string> cautions_of(const TrackArguments& a, std::size_t stated
                                 assigned.track.markers[k].name, assigned.missing[k], frames,
                                 a.lengths.empty() ? "Known lengths (--length) help"
                                                   : "Or is a known length (--length) not that of the picture?"));
+  for (const fc::Exchangeable& e : assigned.alike)
+    out.push_back(
+        fmt::format("{0} and {1} cannot be told apart in {2} frame{3}, the first of them at {4:.6g} s: they "
+                    "are left without both; a known length (--length) or tags (--tags) tell them apart, and "
+                    "a film that begins later (--from) names them anew",
+                    assigned.track.markers[e.first].name, assigned.track.markers[e.second].name, e.frames,
+                    e.frames == 1 ? "" : "s", e.time));
+  if (!lossy_codec.empty())
+    out.push_back(
+        fmt::format("the film is compressed with loss ({}), which displaces marks by 0.02 px to 0.06 px, alike "
+                    "in neighbouring frames: deviations of places do not count it; film at the "
+                    "highest rate of bits, or without loss",
+                    lossy_codec));
+  if (!seen.unstamped.empty())
+    out.push_back(
+        fmt::format("the film tells no time of {} of its frames, the first of them frame {}: they go on at "
+                    "the rate of the others, which are even",
+                    seen.unstamped.size(), seen.unstamped.front()));
   if (seen.repeated > 0)
     out.push_back(fmt::format("{} frames repeat the one before, pixel by pixel: they are lost frames, and left out",
                               seen.repeated));
@@ -470,7 +510,7 @@ Report told(const TrackArguments& a, const film::FilmReader& reader, const Seen&
     report.say("predictions allow for accelerations of {:.3g} px/s^2",
                fact("acceleration_px_s2", assigned.acceleration));
   add_markers(assigned, report);
-  report.sentences("cautions", "note: {}", cautions_of(a, reader.frames(), seen, assigned));
+  report.sentences("cautions", "note: {}", cautions_of(a, reader.frames(), seen, assigned, reader.lossy_codec()));
   return report;
 }
 
@@ -482,8 +522,8 @@ void track(const TrackArguments& a, const Console& console) {
   const fc::AssignOptions options = assignment_of(a);
   film::FilmReader reader(a.film);
   Progress progress(console.err, "track", console.show_progress);
-  const Seen seen = Watching(a, reader).all(progress);
   const hydro::Place place{.file = a.film.string()};
+  const Seen seen = scene::placed(place, [&] { return Watching(a, reader).all(progress); });
   if (seen.read < 2)
     throw InputError(fmt::format("{} of its frames can be decoded, two are needed", seen.read), place,
                      "is the file a film, and whole? " + film::how_to_convert(a.film));

@@ -1,7 +1,9 @@
 #include "froude/film/video.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <opencv2/core.hpp>
 #include <opencv2/core/utils/logger.hpp>
 #include <opencv2/imgcodecs.hpp>
@@ -84,6 +86,18 @@ double FilmReader::frame_rate() const {
 }
 std::size_t FilmReader::frames() const {
   return static_cast<std::size_t>(std::max(0.0, video_->capture.get(cv::CAP_PROP_FRAME_COUNT)));
+}
+
+std::string FilmReader::lossy_codec() const {
+  constexpr std::array lossy{"avc1", "h264", "x264", "hevc", "hvc1", "hev1", "mp4v", "fmp4", "xvid", "divx", "dx50",
+                             "mjpg", "mpg1", "mpg2", "vp80", "vp90", "vp09", "av01", "wmv1", "wmv2", "wmv3", "h263"};
+  const auto code = static_cast<std::uint32_t>(video_->capture.get(cv::CAP_PROP_FOURCC));
+  std::string name;
+  for (unsigned byte = 0; byte < 4; ++byte) name += static_cast<char>((code >> (8 * byte)) & 0xffU);
+  std::string lower = name;
+  std::transform(lower.begin(), lower.end(), lower.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return std::find(lossy.begin(), lossy.end(), lower) == lossy.end() ? std::string() : name;
 }
 
 bool FilmReader::next(Picture& picture, double& time_s, const std::optional<Colour>& colour) {

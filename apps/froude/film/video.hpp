@@ -33,6 +33,8 @@ class FilmReader {
   Eigen::Vector2i size() const;  ///< px, width and height
   double frame_rate() const;     ///< Hz, as the file states it; 0 where it does not
   std::size_t frames() const;    ///< as the file states it; 0 where it does not
+  /// The name of the codec where it loses what is fine, "avc1"; empty where it keeps every pixel, or is not known.
+  std::string lossy_codec() const;
   /// The next frame and its time in the file, s. Grey is the brightness, or, with a colour, how near to it a pixel is:
   /// 255 at that colour, 0 from a distance of 170 levels in all three together on. False after the last one.
   bool next(fit::camera::Picture& picture, double& time_s, const std::optional<Colour>& colour = {});

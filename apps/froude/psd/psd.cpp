@@ -5,6 +5,7 @@
 #include "froude/outputs.hpp"
 #include "froude/psd/report.hpp"
 #include "froude/record_file.hpp"
+#include "froude/record_looks.hpp"
 #include "froude/record_steps.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/base/units.hpp"
@@ -74,6 +75,7 @@ Estimate estimate(const Signal& signal, const RunResult& record, const Analysis&
   if (e.welch.variance <= 1e-28 * e.welch.mean * e.welch.mean) return e;
   e.moments = hs::moments(e.welch.spectrum, hs::whole(e.welch.spectrum));
   e.peak = hs::peak(e.welch.spectrum, hs::whole(e.welch.spectrum));
+  if (analysis.uneven_segment) e.leaked = hs::leaked_shares(record.time, *analysis.uneven_segment, e.welch.spectrum);
   const auto waves = hs::single_waves(record.time, signal.values);
   e.waves = waves.size();
   if (e.waves >= 3) e.statistics = hs::wave_statistics(waves);
@@ -124,6 +126,7 @@ spectra::Analysis spectra::analyse(RunResult record, const PsdArguments& argumen
              .confidence = arguments.confidence,
              .prepared = std::move(steps),
              .input = arguments.input.value_or(""),
+             .cautions = {},
              .estimates = {}};
   scene::placed({.file = arguments.file.string()}, [&] {
     if (arguments.uneven) {
@@ -133,6 +136,7 @@ spectra::Analysis spectra::analyse(RunResult record, const PsdArguments& argumen
       a.step = a.prepared ? a.prepared->step : hs::even_step(record.time);
       if (!a.tapers) a.options = welch_options(arguments, a.samples, a.step);
     }
+    if (!a.prepared) a.cautions = cautions_of_stops(record.signals);
     const auto at =
         std::find_if(record.signals.begin(), record.signals.end(), [&](const Signal& s) { return s.name == a.input; });
     for (const Signal& s : record.signals)

@@ -73,6 +73,21 @@ Report report_of(const Estimate& e, const std::string& input) {
   return out;
 }
 
+/// Where gaps let much of a density come from other frequencies; empty where they do not.
+std::string leakage_of(const Estimate& e) {
+  constexpr double much = 0.2;  // half of the width of a band of some sixty degrees of freedom
+  const auto is_much = [&](double share) { return share > much; };
+  const auto count = std::count_if(e.leaked.begin(), e.leaked.end(), is_much);
+  if (count == 0) return "";
+  const auto first = std::find_if(e.leaked.begin(), e.leaked.end(), is_much) - e.leaked.begin();
+  return fmt::format(
+      "gaps let other frequencies leak into the density of {}: more than a fifth of it at {} of {} frequencies, the "
+      "first of them {:.4g} Hz, and up to {:.0f} %; densities there are as much too high, and bands do not hold them: "
+      "take the longest part without a gap (--from, --to)",
+      e.signal.name, count, e.leaked.size(), e.welch.spectrum.frequency_hz[static_cast<std::size_t>(first)],
+      100 * *std::max_element(e.leaked.begin(), e.leaked.end()));
+}
+
 std::vector<std::string> notes_of(const Estimate& e, bool uneven) {
   std::vector<std::string> out;
   if (!e.moments) out.push_back(e.signal.name + " never changes");
@@ -86,6 +101,7 @@ std::vector<std::string> notes_of(const Estimate& e, bool uneven) {
         "the spectrum of {} holds {:.3g} times its variance: what is missing aliases, and raises densities, "
         "heights and the higher moments",
         e.signal.name, e.moments->m0 / e.welch.variance));
+  if (std::string leaked = leakage_of(e); !leaked.empty()) out.push_back(std::move(leaked));
   if (!e.drift.empty()) out.push_back(e.signal.name + " " + e.drift);
   if (e.moments && !e.statistics)
     out.push_back(fmt::format("{} has {} complete waves: too few for H1/3", e.signal.name, e.waves));
@@ -242,7 +258,7 @@ Report report_of(const Analysis& a) {
 }
 
 std::vector<std::string> notes_of(const Analysis& a) {
-  std::vector<std::string> out;
+  std::vector<std::string> out = a.cautions;
   for (const Estimate& e : a.estimates)
     for (std::string& note : notes_of(e, a.uneven_segment.has_value())) out.push_back(std::move(note));
   for (const Estimate& e : a.estimates) {

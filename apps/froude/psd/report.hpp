@@ -26,6 +26,7 @@ struct Estimate {
   std::optional<hs::WaveStatistics> statistics;
   std::string drift;                             ///< a sentence where the record drifts; else empty
   std::optional<hs::TransferEstimate> transfer;  ///< from the input to this signal
+  std::vector<double> leaked = {};               ///< of a record with gaps: shares of the density from afar (F124)
   std::vector<double> resolution = {};  ///< by what endless segments would move its |H₁|; may be empty (F118)
 };
 
@@ -39,6 +40,7 @@ struct Analysis {
   double confidence;
   std::optional<StepsDone> prepared;  ///< where steps before the spectrum were asked for
   std::string input;                  ///< empty: none
+  std::vector<std::string> cautions;  ///< of the record itself, where no steps told them
   std::vector<Estimate> estimates;
 };
 

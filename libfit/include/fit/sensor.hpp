@@ -10,8 +10,9 @@ namespace fit {
 
 /// A sensor at its stop: the same extreme value again and again.
 struct Clipping {
-  double low, high;                     ///< the extreme values
-  std::size_t at_low = 0, at_high = 0;  ///< samples that stand there, 0 where that side is free
+  double low, high;                                 ///< the extreme values
+  std::size_t at_low = 0, at_high = 0;              ///< samples that stand there, 0 where that side is free
+  std::size_t low_in_a_row = 0, high_in_a_row = 0;  ///< the most of them one after the other
 };
 /// Empty unless one of the extremes is taken by at least 5 samples and 5 times as often as the value next to it; (F19).
 /// Noise added after the stop hides it. \throws hydro::InputError for a value that is not finite
@@ -52,7 +53,8 @@ struct EvenGrid {
   std::vector<std::size_t> filled;  ///< samples of the new grid that were missing
 };
 /// The even grid of a record that lacks rows; each gap may be `longest_gap_s` long. Samples must otherwise be even
-/// within 2 % of a step. \throws hydro::InputError for a longer gap, naming the time, or time that does not increase
+/// within 2 % of a step, or but for their last digit, to which they were rounded (F123). \throws hydro::InputError for
+/// a longer gap, naming the time, or time that does not increase
 EvenGrid even_grid(std::span<const double> time_s, double longest_gap_s);
 /// A column on that grid: straight lines over the gaps, everything else unchanged.
 std::vector<double> on_grid(const EvenGrid& grid, std::span<const double> values);

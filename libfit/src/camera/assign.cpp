@@ -74,6 +74,11 @@ struct Prediction {
     state = F * state;
     covariance = F * covariance * F.transpose() + Q;
   }
+  /// From now on its velocity may be the opposite one, which no acceleration of the others tells.
+  void may_turn_back() {
+    const Eigen::Vector2d velocity = state.tail<2>();
+    covariance.bottomRightCorner<2, 2>() += 4 * velocity * velocity.transpose();
+  }
   Eigen::Vector2d place() const { return state.head<2>(); }
   /// Of a sighting: its squared distance over the variance of both, and how much wider that is than its own. (V9)
   struct Missed {
@@ -112,13 +117,25 @@ class Assignment {
 
   Assigned whole() {
     const double step = (frames_.back().time - frames_.front().time) / static_cast<double>(frames_.size() - 1);
-    Assigned rough = pass(2 * least_distance() / 4 / (step * step));
-    const double found = acceleration_of(rough.track);
+    const double most = 2 * least_distance() / 4 / (step * step);
+    const Assigned rough = pass(most);
     check_motion(rough.track);
-    return pass(3 * found);
+    return pass(3 * least_acceleration(rough, most), Names::certain);
   }
 
  private:
+  /// Names that change to and fro make accelerations which no marker has: fewer are allowed for as long as every place
+  /// is given to a marker still.
+  double least_acceleration(const Assigned& rough, double allowed) const {
+    double out = acceleration_of(rough.track);
+    for (int times = 0; times < 3; ++times) {
+      const Assigned finer = pass(allowed /= 4);
+      if (finer.sightings < rough.sightings) break;
+      out = std::min(out, acceleration_of(finer.track));
+    }
+    return out;
+  }
+
   std::size_t count() const { return options_.names.size(); }
   std::size_t number(const std::string& name) const {
     const auto at = std::find(options_.names.begin(), options_.names.end(), name);
@@ -268,7 +285,67 @@ class Assignment {
     return out;
   }
 
-  Assigned pass(double acceleration) const {
+  /// (V35) What exchanged names of two markers would miss beyond what the names given do.
+  struct Exchange {
+    double missed;  ///< squared, of both as they are named
+    double beyond;  ///< ∞ where the exchange breaks a gate or a known length
+  };
+  Exchange exchange_of(const std::vector<Prediction>& all, std::vector<std::size_t> now,
+                       const std::vector<Sighting>& found, std::size_t k, std::size_t l) const {
+    const auto missed = [&](std::size_t marker, std::size_t place) {
+      return all[marker].missed(found[place]).distance;
+    };
+    const double k_there = missed(k, now[l]), l_there = missed(l, now[k]), here = missed(k, now[k]) + missed(l, now[l]);
+    const Exchange none{here, std::numeric_limits<double>::infinity()};
+    if (k_there >= gate_ || l_there >= gate_) return none;
+    std::swap(now[k], now[l]);
+    const auto zero = Eigen::MatrixXd::Zero(std::ssize(all), std::ssize(found));
+    return broken(all, now, found, zero).first == count() ? Exchange{here, k_there + l_there - here} : none;
+  }
+
+  /// Whether two markers were both given nothing, though there are two places that nobody has: where a motion that no
+  /// prediction knew may have brought either of them.
+  bool were_thrown(const std::vector<std::size_t>& now, std::size_t places, std::size_t k, std::size_t l) const {
+    const auto given = static_cast<std::size_t>(
+        std::count_if(now.begin(), now.end(), [&](std::size_t place) { return place < places; }));
+    return now[k] == places && now[l] == places && places >= given + 2;
+  }
+
+  /// Takes from these markers what they were given. `open`: pairs that are not told apart yet, as numbered k · n + l.
+  void leave_out_alike(std::vector<Prediction>& all, const Frame& frame, std::vector<std::size_t>& now,
+                       std::vector<bool>& open, std::vector<Exchangeable>& told) const {
+    constexpr double thousand = 13.8, million = 27.6;  // 2 ln 1000, 2 ln 10⁶: to be told apart again
+    // Predictions allow for three times the accelerations that were found: of these, one smooth pair in a thousand is
+    // missed by more.
+    constexpr double surprise = 18.5 / 9;
+    const std::vector<std::size_t> before = now;
+    const std::size_t none = frame.found.size();
+    for (std::size_t k = 0; k < count(); ++k)
+      for (std::size_t l = k + 1; l < count(); ++l) {
+        const std::size_t pair = k * count() + l;
+        const bool was_open = open[pair];
+        if (were_thrown(before, none, k, l)) open[pair] = true;
+        if (before[k] != none && before[l] != none) {
+          const Exchange other = exchange_of(all, before, frame.found, k, l);
+          open[pair] = open[pair] ? other.beyond < million : other.beyond < thousand && other.missed > surprise;
+        }
+        if (open[pair] && !was_open)
+          for (const std::size_t m : {k, l}) all[m].may_turn_back();
+        if (!open[pair]) continue;  // of a pair that is open one alone may be either
+        now[k] = now[l] = none;
+        const auto same = [&](const Exchangeable& e) { return e.first == k && e.second == l; };
+        const auto at = std::find_if(told.begin(), told.end(), same);
+        if (at == told.end())
+          told.push_back({k, l, frame.time, 1});
+        else
+          ++at->frames;
+      }
+  }
+
+  /// Whether a pass leaves out what may as well have another name: the first one asks how things move alone.
+  enum class Names { likely, certain };
+
+  Assigned pass(double acceleration, Names names = Names::likely) const {
     Assigned out{.track = {},
                  .sightings = 0,
                  .left_over = 0,
@@ -276,11 +353,13 @@ class Assignment {
                  .acceleration = acceleration};
     for (const std::string& name : options_.names) out.track.markers.push_back({name, {}});
     std::vector<Prediction> all = begin(acceleration);
+    std::vector<bool> open(count() * count());
     for (std::size_t i = 0; i < frames_.size(); ++i) {
       const auto& found = frames_[i].found;
       if (i > 0)
         for (Prediction& p : all) p.advance(frames_[i].time - frames_[i - 1].time, acceleration);
-      const std::vector<std::size_t> now = i == 0 ? first_ : given(all, found);
+      std::vector<std::size_t> now = i == 0 ? first_ : given(all, found);
+      if (i > 0 && names == Names::certain) leave_out_alike(all, frames_[i], now, open, out.alike);
       out.track.time.push_back(frames_[i].time);
       std::size_t taken = 0;
       for (std::size_t k = 0; k < count(); ++k) {

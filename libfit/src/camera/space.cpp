@@ -77,7 +77,8 @@ std::optional<SpacePose> downhill(const Eye& eye, const std::vector<SeenOnBody>&
   if (!solved) return std::nullopt;
   squares = solved->squares;
   pose.covariance = solved->covariance;
-  pose.stray = std::sqrt(squares / static_cast<double>(2 * seen.size() - 6));
+  pose.freedoms = static_cast<double>(2 * seen.size() - 6);
+  pose.stray = std::sqrt(squares / pose.freedoms);
   return pose;
 }
 

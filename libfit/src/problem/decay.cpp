@@ -17,6 +17,7 @@ namespace fit::decay {
 namespace {
 
 Record prepared(const Problem& problem, const Run& run) {
+  if (problem.turns) require_within_half_a_turn(run.motion);
   auto motion = prepare_motion(problem.turns ? "angle" : "position", run.time, run.motion, problem.options.prepare);
   return {run.source.name(), std::move(motion.time), std::move(motion.values), std::move(motion.steps),
           std::move(motion.cautions)};

@@ -1,6 +1,8 @@
 #include "fit/problem/delay.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
 
 #include "telling.hpp"
 
@@ -8,6 +10,42 @@ namespace fit::delay {
 namespace {
 
 constexpr double by_chance = 0.01;
+
+/// One half of the first channel against the whole of the second, about the lag that is known.
+std::optional<Offset> half_offset(const Run& run, const FittedRun& whole, const OffsetOptions& search, bool first) {
+  const auto middle = static_cast<std::ptrdiff_t>(whole.time.size() / 2);
+  const auto half_of = [&](const std::vector<double>& v) {
+    return first ? std::vector(v.begin(), v.begin() + middle) : std::vector(v.begin() + middle, v.end());
+  };
+  OffsetOptions about = search;
+  about.around = whole.offset.lag;
+  about.longest = std::min(search.longest, (whole.time.back() - whole.time.front()) / 8);
+  about.sign = whole.offset.scale < 0 ? OffsetOptions::Sign::opposite : OffsetOptions::Sign::same;
+  try {
+    return offset_between(half_of(whole.time), half_of(whole.first), run.second_time, run.second, about);
+  } catch (const hydro::InputError&) {  // a half that tells no lag tells no drift either
+    return std::nullopt;
+  }
+}
+
+/// (F122) Clocks of one rate have one delay: halves whose delays exclude each other are of two clocks that run apart.
+void require_one_rate(const Run& run, const FittedRun& whole, const OffsetOptions& search) {
+  constexpr double apart = 2;  // times both half-widths together: of two halves that are right one in ten thousand
+  const auto first = half_offset(run, whole, search, true), second = half_offset(run, whole, search, false);
+  if (!first || !second) return;
+  const double change = second->lag - first->lag, known = std::hypot(first->half_width, second->half_width),
+               between = (whole.time.back() - whole.time.front()) / 2;
+  constexpr double rounding = 1e-4;  // of the time between: records without noise have no half-width
+  if (std::abs(change) <= std::max(apart * known, rounding * between)) return;
+  throw hydro::InputError(
+      fmt::format("{} is {:.4g} s behind {} in the first half of the record and {:.4g} s in the second, +- {:.2g} s "
+                  "each: the two run apart by {:.2g} s in 1000 s, and no one delay is true of both",
+                  search.second, first->lag, search.first, second->lag, known / std::sqrt(2.0),
+                  1000 * std::abs(change) / between),
+      {},
+      "correct the rate of one clock, its times multiplied by the ratio of both, or name a short [prepare] window, in "
+      "which the delay does not change");
+}
 
 FittedRun fitted(const Run& run, const Options& options) {
   FittedRun out;
@@ -36,6 +74,7 @@ FittedRun fitted(const Run& run, const Options& options) {
         {},
         "take a longer record, or one with a beginning; or bound the delay, [model] longest; or say that they are of "
         "one source, a sea or a motor: [model] one_source = true");
+  require_one_rate(run, out, search);
   return out;
 }
 

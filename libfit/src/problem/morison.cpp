@@ -76,6 +76,7 @@ void look_for_delay(const Options& options, FittedRun& run) {
   if (options.longest_delay || !run.fit.search.all_identifiable()) return;
   const std::optional<MorisonFit> with = fit_with_delay(options, run);
   if (!with || !with->delay->value) return;
+  if (with->residual_rms >= run.fit.residual_rms) return;  // noise of the motion, where a delay makes the fit worse
   const double late = *with->delay->value, in_all = late + options.prepare.delay_s,
                error = std::hypot(with->delay->standard_error, options.force.delay_error_s);
   if (std::abs(late) <= hydro::signal::student_t_quantile(1 - chance / 2, with->dof) * error) return;

@@ -1,6 +1,7 @@
 #include "fit/problem/radiation.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "telling.hpp"
 
@@ -8,6 +9,42 @@ namespace fit::radiation {
 namespace {
 
 constexpr std::size_t least_for_poles = 5;
+
+/// What the record's own force makes of the motion, |C − ω²(M + A)| and ωB together, over the larger of what stiffness
+/// and mass make of it.
+double share_of_load(const RadiationPoint& p, const RestoredBody& body) {
+  const double squared = p.omega * p.omega, inertia = squared * (body.mass + middle(p.added_mass));
+  return std::hypot(body.stiffness - inertia, p.omega * middle(p.damping)) /
+         std::max(body.stiffness, squared * body.mass);
+}
+
+/// (F119) A load cell that feels next to nothing of what mass and stiffness ask for, away from the one frequency where
+/// they balance, or a body that is lighter than nothing in the water, has other units than the table says.
+void require_units_that_agree(const Problem& problem, const std::vector<Point>& points) {
+  constexpr double nothing = 0.05;  // of stiffness and mass: within 3 % of the natural frequency alone
+  constexpr double apart = 1.2;     // of two frequencies, which then cannot both be natural ones
+  const RestoredBody& body = problem.body;
+  if (!(body.mass > 0)) return;  // of a force without the body's inertia A is what it is
+  const auto wrong = [&](const Point& p, const std::string& what) {
+    throw hydro::InputError(
+        fmt::format("{}: motion and force do not go together with the body's mass and stiffness", what),
+        {.file = p.source.file.string()},
+        "look at the units of motion and force in the header, cm under [m] or kN under [N], and at mass and stiffness");
+  };
+  const bool all_small =
+      std::all_of(points.begin(), points.end(), [&](const Point& p) { return share_of_load(p.point, body) < nothing; });
+  for (const Point& p : points) {
+    const auto& [low, high] = p.point.added_mass.interval;
+    const bool negative = is_surely_negative(p.point.added_mass.interval);
+    if (high + body.mass < 0)
+      wrong(p, fmt::format("mass and added mass together come out negative at {:.4g} rad/s ({:.5g} at most)",
+                           p.point.omega, high + body.mass));
+    if (all_small && (negative || points.back().point.omega > apart * points.front().point.omega))
+      wrong(p, fmt::format("the force is {:.2g} % of what mass and stiffness ask for at {:.4g} rad/s, and added mass "
+                           "comes out as {:.5g} to {:.5g}",
+                           100 * share_of_load(p.point, body), p.point.omega, low, high));
+  }
+}
 
 /// (F79) Still water takes energy from a motion, and gives none back.
 std::optional<Refusal> refusal_of(const std::vector<Point>& points) {
@@ -102,11 +139,13 @@ Solution solve(const Problem& problem) {
   Solution out;
   for (const Run& run : problem.runs)
     out.points.push_back({run.source, of_run(run.source, [&] {
+                            if (problem.turns) require_within_half_a_turn(run.motion);
                             return with_slopes(
                                 problem, fit_radiation(run.time, run.motion, run.force, problem.body, confidence));
                           })});
   std::sort(out.points.begin(), out.points.end(),
             [](const Point& a, const Point& b) { return a.point.omega < b.point.omega; });
+  require_units_that_agree(problem, out.points);
   Report& report = out.report;
   report.refused = refusal_of(out.points);
   if (report.refused) return out;

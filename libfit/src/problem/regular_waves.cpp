@@ -8,6 +8,7 @@
 #include "hydro/base/error.hpp"
 #include "hydro/signal/distributions.hpp"
 #include "hydro/signal/welch.hpp"
+#include "hydro/waves/dispersion.hpp"
 #include "prepare_steps.hpp"
 #include "telling.hpp"
 #include "wave_records.hpp"
@@ -97,6 +98,20 @@ void tell_gains(const PrepareOptions& steps, double step, const RegularWaveFit& 
                     first));
 }
 
+/// (F120) Waves break before their height is 0.142 λ tanh(kh) (Miche), so that higher ones are of another unit.
+void require_waves_that_stand(const RegularWaveFit& fit, const hydro::Water& water) {
+  constexpr double limit = 0.142, slack = 1.1;  // the height of the first harmonic, of sharp crests with higher ones
+  const double k = hydro::waves::wavenumber(fit.omega, water),
+               in_depth = water.depth.is_infinite() ? 1 : std::tanh(k * water.depth.metres()),
+               length = 2 * std::numbers::pi / k, highest = limit * length * in_depth,
+               height = 2 * amplitude_of(fit.wave);
+  if (height > slack * highest)
+    throw hydro::InputError(
+        fmt::format("waves of {:.4g} s are {:.4g} m high and {:.4g} m long: waves of that length break above {:.4g} m",
+                    period_of(fit), height, length, highest),
+        {}, "look at the unit of the elevation in the header, mm under [m], and at the depth");
+}
+
 FittedRun fitted(const Problem& problem, const WaveRun& run, Report& report) {
   PrepareOptions steps = with_band(run, problem.options.prepare);
   steps.window = {};  // times are those of the whole record
@@ -106,6 +121,7 @@ FittedRun fitted(const Problem& problem, const WaveRun& run, Report& report) {
   std::optional<std::pair<double, double>> span;
   if (const auto& w = problem.options.prepare.window; w.kind == WindowChoice::Kind::span) span = {w.from, w.to};
   out.fit = fit_regular_waves(out.time, out.elevation, responses, problem.options, span);
+  require_waves_that_stand(out.fit, problem.options.tank.water);
   tell_gains(steps, hydro::signal::even_step(out.time), out.fit, report);
   for (std::size_t i = 0; i < out.fit.responses.size(); ++i) {
     Coefficient& rao = out.fit.responses[i].rao;

@@ -4,10 +4,23 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <numeric>
 
 #include "hydro/signal/distributions.hpp"
 
 namespace fit {
+
+void require_within_half_a_turn(const std::vector<double>& angle) {
+  const double mean = std::accumulate(angle.begin(), angle.end(), 0.0) / static_cast<double>(angle.size());
+  double farthest = 0;
+  for (const double a : angle) farthest = std::max(farthest, std::abs(a - mean));
+  if (farthest > std::numbers::pi)
+    throw hydro::InputError(
+        fmt::format("the angle goes {:.4g} rad from its mean, more than half a turn: a body that swings does not",
+                    farthest),
+        {}, "look at the unit in the header: numbers in degrees need [deg]");
+}
 
 Refusal drives_the_motion(const std::string& what, const Source& source) {
   return {.reason = Refusal::Reason::wrong_sign,

@@ -27,6 +27,10 @@ auto of_run(const Source& source, const Work& work) {
   }
 }
 
+/// (F121) A body that swings about its rest, or is driven, stays within half a turn of its mean. \throws
+/// hydro::InputError for a record of an angle, rad, that does not: its header names another unit than its numbers have
+void require_within_half_a_turn(const std::vector<double>& angle);
+
 /// (F79) Negative beyond twice its interval.
 inline bool is_surely_negative(const Interval& i) { return i.high + (i.high - i.low) / 2 < 0; }
 /// Of a damping or drag that is: `what` comes out negative.

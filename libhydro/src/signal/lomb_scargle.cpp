@@ -38,6 +38,15 @@ struct Segment {
   }
   /// Hz, of noise, of the window where it is sampled.
   double bandwidth_hz() const { return squares / (sum * sum) * steps / covered; }
+  /// |Σ w e^{iωt}|².
+  double window_squared(double hz) const {
+    double even = 0, odd = 0;
+    for (std::size_t i = 0; i < t.size(); ++i) {
+      even += w[i] * std::cos(2 * std::numbers::pi * hz * t[i]);
+      odd += w[i] * std::sin(2 * std::numbers::pi * hz * t[i]);
+    }
+    return even * even + odd * odd;
+  }
   /// A² of mean + A cos(ωt + φ), least squares with the window as weight.
   double amplitude_squared(double omega) const {
     Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
@@ -105,6 +114,29 @@ WelchSpectrum lomb_scargle(std::span<const double> time_s, std::span<const doubl
     }
     out.spectrum.frequency_hz.push_back(f);
     out.spectrum.density.push_back(density);
+  }
+  return out;
+}
+
+// (F124)
+std::vector<double> leaked_shares(std::span<const double> time_s, double segment_s, const SpectrumPerHz& spectrum) {
+  const std::vector<double> none(time_s.size(), 0);
+  const std::size_t lines = spectrum.density.size();
+  std::vector<double> window(2 * lines + 1, 0);
+  for (const Segment& s : segments_of(time_s, none, segment_s))
+    for (std::size_t m = 0; m < window.size(); ++m) window[m] += s.window_squared(static_cast<double>(m) / segment_s);
+  // Of both signs, over as many frequencies as the spectrum has: all of what a line is spread over.
+  double all = window[0];
+  for (std::size_t m = 1; m <= lines; ++m) all += 2 * window[m];
+  constexpr std::size_t near = 2;  // lines that Hann's window itself spreads over
+  std::vector<double> out;
+  for (std::size_t k = 0; k < lines; ++k) {
+    double leaked = 0;
+    for (std::size_t j = 0; j < lines; ++j) {
+      const std::size_t apart = k > j ? k - j : j - k, sum = k + j + 2;  // lines are counted from 1/T
+      leaked += spectrum.density[j] * ((apart > near ? window[apart] : 0) + window[sum]) / all;
+    }
+    out.push_back(spectrum.density[k] > 0 ? std::min(1.0, leaked / spectrum.density[k]) : 0);
   }
   return out;
 }

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "dynamics/spatial/rotation.hpp"
+#include "fit/camera/meeting.hpp"
 #include "hydro/base/random.hpp"
 #include "support/refused.hpp"
 
@@ -332,6 +333,65 @@ TEST(Joined, OfAClockThatIsLateStrays) {
   for (const auto& p : out.point[0])
     if (p) stray = std::max(stray, p->stray);
   EXPECT_GT(stray, 10);  // 0.02 s of 0.5 m/s upwards are 3 px, between two of 0.2 px
+}
+
+Track noisy(Track track, double deviation, std::uint64_t stream) {
+  const hydro::RandomStream random(stream, 8);
+  std::uint64_t n = 0;
+  for (auto& marker : track.markers)
+    for (auto& s : marker.seen) {
+      const Vector2d error(random.normal(n), random.normal(n + 1));
+      n += 2;
+      s->at += deviation * error;
+    }
+  return track;
+}
+
+TEST(Meeting, LeavesOutWhatPassesByMoreThanErrorsAllow) {
+  const Eye left = beside(-0.3), right = beside(0.3);
+  const Track first = noisy(by_eye(left, 0, 200, 0.02, 0), 0.2, 1);
+  Track second = noisy(by_eye(right, 0, 200, 0.02, 0), 0.2, 2);
+  auto clean = joined({first, left, 0.2}, {second, right, 0.2});
+  EXPECT_TRUE(fit::camera::leave_out_apart(clean).empty());
+  EXPECT_EQ(fit::camera::widening_of(clean), 1);
+  EXPECT_FALSE(fit::camera::clock_of_second({first, left, 0.2}, {second, right, 0.2}));
+  for (std::size_t i = 100; i < 106; ++i) second.markers[0].seen[i]->at.y() += 20;  // another marker's place
+  auto wrong = joined({first, left, 0.2}, {second, right, 0.2});
+  const auto apart = fit::camera::leave_out_apart(wrong);
+  ASSERT_EQ(apart.size(), 6u);
+  EXPECT_EQ(apart.front(), std::pair(std::size_t{0}, std::size_t{100}));
+  EXPECT_FALSE(wrong.point[0][103]);
+  EXPECT_EQ(fit::camera::widening_of(wrong), 1);
+}
+
+TEST(Meeting, KnowsNoiseThatIsLargerThanStated) {
+  const Eye left = beside(-0.3), right = beside(0.3);
+  const auto track = joined({noisy(by_eye(left, 0, 400, 0.02, 0), 0.3, 1), left, 0.2},
+                            {noisy(by_eye(right, 0, 400, 0.02, 0), 0.3, 2), right, 0.2});
+  EXPECT_NEAR(fit::camera::widening_of(track), 1.5, 0.15);  // of some 400 numbers: a deviation of 0.05
+}
+
+TEST(Meeting, FindsTheClockThatIsLate) {
+  const Eye left = beside(-0.3), right = beside(0.3);
+  for (const double late : {0.03, -0.11}) {
+    Track second = noisy(by_eye(right, 0, 200, 0.02, 0), 0.2, 2);
+    for (double& t : second.time) t += late;
+    const auto found =
+        fit::camera::clock_of_second({noisy(by_eye(left, 0, 200, 0.02, 0), 0.2, 1), left, 0.2}, {second, right, 0.2});
+    ASSERT_TRUE(found) << late;
+    EXPECT_NEAR(*found, -late, 0.001);  // 0.2 px of 200 places against 500 px/s: a deviation of 0.04 ms
+  }
+}
+
+TEST(PosesInSpace, KnowNoiseThatIsLargerThanStated) {
+  const Eye eye = eye_of(view_of_board(false), 0, 0);
+  const auto widened = [&](double noise) {
+    return fit::camera::widening_of(
+        poses_in_space(filmed(eye, on_body, 200, noise, 4), eye, on_body, {0.4, 0, 1}, 0.3));
+  };
+  EXPECT_EQ(widened(0.3), 1);
+  // Frames beyond the gate (V33) are left out, which takes little of noise that is 1.3 times as large.
+  EXPECT_NEAR(widened(0.39), 1.3, 0.1);
 }
 
 TEST(Joined, RefusesTracksWithNothingInCommon) {

@@ -70,6 +70,32 @@ TEST(LombScargle, HasTheVarianceOfASineAtUnevenTimes) {
   EXPECT_NEAR(usual_nyquist_hz(t), 0.5, 0.02);
 }
 
+// A tail that falls as f⁻⁵, and every fifth block of 30 s missing: of what is told far out the part that has leaked is
+// what it is too high by.
+TEST(LeakedShares, TellHowMuchATailIsTooHigh) {
+  const auto steep = [](double f) {
+    return f > 0 ? std::pow(f, -5) * std::exp(-1.25 * std::pow(0.1 / f, 4)) / 2000 : 0;
+  };
+  constexpr double step = 0.25, segment = 100;
+  const auto x = froude_test::gaussian_record(steep, 16384, step, 3);
+  const auto t = even(x.size(), step);
+  const auto whole = lomb_scargle(t, x, segment, 0.7);
+  for (const double share : leaked_shares(t, segment, whole.spectrum)) EXPECT_LT(share, 0.1);
+  std::vector<double> gappy, left;
+  for (std::size_t i = 0; i < t.size(); ++i)
+    if (i % 600 >= 120) gappy.push_back(t[i]), left.push_back(x[i]);
+  const auto found = lomb_scargle(gappy, left, segment, 0.7);
+  const auto shares = leaked_shares(gappy, segment, found.spectrum);
+  EXPECT_LT(shares[9], 0.05);  // the peak, 0.1 Hz
+  double high = 0, told = 0;
+  for (std::size_t k = 39; k < 60; ++k) {  // 0.4 to 0.6 Hz
+    high += found.spectrum.density[k] / whole.spectrum.density[k] / 21;
+    told += shares[k] / 21;
+  }
+  EXPECT_GT(high, 1.2);
+  EXPECT_NEAR(told, 1 - 1 / high, 0.15);  // leaked is told by a spectrum that has leaked itself
+}
+
 TEST(LombScargle, NamesWhatIsWrong) {
   const auto t = even(100, 1);
   const std::vector<double> x(100, 1.0);

@@ -30,7 +30,7 @@ function comparison(data) {
     runs.length > 1
       ? part(
           'Signals over each other',
-          figures.length ? grid(figures) : h('p', {}, 'The runs have no signal in common.'),
+          figures.length ? grid(figures) : h('p', {}, 'The runs have no signal in common that is drawn; what else they both hold is compared below.'),
         )
       : null,
     data.differences.length

@@ -33,17 +33,26 @@ struct AssignOptions {
   std::vector<KnownLength> lengths = {};  ///< places that break one by more than five deviations are not its marker's
 };
 
+/// Two markers whose names may as well be exchanged, from a time on and in so many frames.
+struct Exchangeable {
+  std::size_t first, second;  ///< of the markers
+  double time;                ///< s, of the first of these frames
+  std::size_t frames;
+};
+
 struct Assigned {
   Track track;
-  std::size_t sightings = 0;         ///< that were given to a marker
-  std::size_t left_over = 0;         ///< found and given to none
-  std::vector<std::size_t> missing;  ///< frames without it, one a marker
-  double acceleration = 0;           ///< px/s²: that predictions allow for, of both coordinates together
+  std::size_t sightings = 0;             ///< that were given to a marker
+  std::size_t left_over = 0;             ///< found and given to none
+  std::vector<std::size_t> missing;      ///< frames without it, one a marker
+  double acceleration = 0;               ///< px/s²: that predictions allow for, of both coordinates together
+  std::vector<Exchangeable> alike = {};  ///< left without both, in the order of their first frames
 };
 
 /// Each marker moves on at its velocity, with accelerations that are white noise; what is found is given out so that
 /// the sum of squared distances, each over the variance of its prediction, is least, and nothing beyond the gate. A
-/// marker that nothing is given to is a gap, over which its prediction grows uncertain. How large accelerations are is
+/// marker that nothing is given to is a gap, over which its prediction grows uncertain. Two markers of which exchanged
+/// names are not a thousand times less likely are gaps both (V35). How large accelerations are is
 /// taken from a first pass, in which a quarter of the least distance between markers is allowed between two frames.
 /// \throws hydro::InputError: fewer than two frames, times that do not increase, fewer places than markers in the first
 /// frame, more of them without `first`, a first place that is nearly as near to another, two markers nearest to one

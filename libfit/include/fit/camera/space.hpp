@@ -27,6 +27,7 @@ struct SpacePose {
   Eigen::Quaterniond attitude;             ///< from body axes to the scene's
   Eigen::Matrix<double, 6, 6> covariance;  ///< of the place, m, and of a small turn about the scene's axes, rad
   double stray;                            ///< rms of pixels missed over their errors
+  double freedoms = 0;                     ///< of these pixels: 2 n − 6
 };
 
 struct SpacePoses {
