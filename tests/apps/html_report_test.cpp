@@ -8,8 +8,10 @@
 
 #include "hydro/base/base64.hpp"
 #include "report/arrays.hpp"
+#include "report/contents.hpp"
 #include "report/page.hpp"
 #include "report/spectra_of_run.hpp"
+#include "support/scratch.hpp"
 
 namespace html_report_test {
 namespace {
@@ -88,6 +90,22 @@ TEST(ReportSpectra, OfTooShortARecordSayWhy) {
   run.time = {0, 1, 2};
   run.signals = {{"a", "m", "", {0, 1, 0}}};
   EXPECT_TRUE(html::spectra_of(run, 0).contains("missing"));
+}
+
+// What a section carries at rest stands beside its loads in waves, and is no response itself.
+TEST(ReportResponses, HaveWhatSectionsCarryAtRest) {
+  const auto path = support::scratch_folder() / "sections.rao.h5";
+  froude::write_rao(path, {0.5, 1}, {0}, {{"barge.mid.force_z", "N/m", "shear", {{1, 0}, {0, 2}}}}, {}, {},
+                    {{"barge.mid", {5, 0, -1}, {1, 0, 0}, {1, 2, 3, 4, 5, 6}}});
+  const html::Json rao = html::rao_contents(path);
+  ASSERT_EQ(rao["signals"].size(), 1u);
+  ASSERT_EQ(rao["sections"].size(), 1u);
+  EXPECT_EQ(rao["sections"][0]["name"], "barge.mid");
+  const html::Json& rest = rao["sections"][0]["at_rest"];
+  EXPECT_EQ(rest["at_x"], html::Json({{"unit", "m"}, {"value", 5.0}}));
+  EXPECT_EQ(rest["normal_x"]["value"], 1.0);
+  EXPECT_EQ(rest["force_z"], html::Json({{"unit", "N"}, {"value", 3.0}}));
+  EXPECT_EQ(rest["moment_y"], html::Json({{"unit", "N m"}, {"value", 5.0}}));
 }
 
 TEST(ReportPage, LetsNoTextEndAnElement) {
