@@ -28,7 +28,7 @@ std::vector<SectionAtRest> sections_at_rest(const scene::Scene& scene, const Pre
 const scene::Section* section_of_signal(const scene::Scene& scene, const std::string& signal);
 
 /// The same prepared of coefficients that are as far off as the error of panels is told, where there are sections: by
-/// the size of panels, and by refining at some frequencies only (G28).
+/// the size of panels, by refining at some frequencies only, and by dividing panels (G28), (G30).
 std::vector<Prepared> doubted(const scene::Scene& scene, const Prepared& prepared);
 
 /// \throws hydro::InputError at the first section of a scene that is to be stepped
