@@ -52,11 +52,12 @@ py::cpp_function view_of(std::vector<Number> T::*member) {
   return py::cpp_function([member](const py::object& self) { return view(self.cast<const T&>().*member, self); });
 }
 
-/// The method to_xarray() of a class: the dataset that a function of froude.datasets makes of it.
-inline void add_dataset(const py::object& type, const char* maker, const char* doc) {
-  type.attr("to_xarray") = py::cpp_function(
+/// The method to_xarray() of a class, or one of another name: the dataset that a function of froude.datasets makes of
+/// it.
+inline void add_dataset(const py::object& type, const char* maker, const char* doc, const char* method = "to_xarray") {
+  type.attr(method) = py::cpp_function(
       [maker](const py::object& self) { return py::module_::import("froude.datasets").attr(maker)(self); },
-      py::name("to_xarray"), py::is_method(type), doc);
+      py::name(method), py::is_method(type), doc);
 }
 
 /// Pairs in their order.

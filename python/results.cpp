@@ -111,6 +111,19 @@ void add_run(py::module_& m) {
   add_dataset(type, "of_run", "xarray.Dataset along `time`; each signal has `units`, `long_name` and `error`.");
 }
 
+py::list sections_of(const Responses& r) {
+  py::list out;
+  for (const SectionAtRest& s : r.sections) {
+    py::dict one;
+    one["name"] = s.name;
+    one["at"] = py::array_t<double>(3, s.at.data());
+    one["normal"] = py::array_t<double>(3, s.normal.data());
+    one["at_rest"] = py::array_t<double>(6, s.load.data());
+    out.append(one);
+  }
+  return out;
+}
+
 void add_rao(py::module_& m) {
   py::class_<Responses> type(
       m, "Rao",
@@ -122,7 +135,16 @@ void add_rao(py::module_& m) {
   type.def_property_readonly("omega", view_of(&Responses::omega), "Frequency of the waves, rad/s, shape (omega,).")
       .def_property_readonly("heading", view_of(&Responses::heading),
                              "Where the waves go, rad, from +x towards +y, shape (heading,), also of one.");
+  type.def_property_readonly(
+      "sections", sections_of,
+      "Sections of hulls of which a load is among the signals: for each a dict of its `name`, "
+      "the point `at` and the `normal` of its plane, shape (3,), m, and `at_rest`, shape (6,), N "
+      "and N m: force and moment where the bodies are still, on the part that is described.");
   add_dataset(type, "of_rao", "xarray.Dataset along `heading` and `omega`, complex; `units` and `long_name` of each.");
+  add_dataset(type, "of_section_loads",
+              "xarray.Dataset of the loads at sections, complex, along `section`, `heading` and `omega`; those at rest "
+              "along `section`, as `force_x_at_rest`; `units` and `long_name` of each.",
+              "section_loads");
 }
 
 void add_field(py::module_& m) {

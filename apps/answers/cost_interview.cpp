@@ -8,6 +8,7 @@
 
 #include "answers/linear_response.hpp"
 #include "answers/simulate.hpp"
+#include "compile/sections.hpp"
 #include "hydro/base/error.hpp"
 
 namespace froude {
@@ -80,6 +81,7 @@ void Interview::repeat(const Question& question) {
 /// What a first preparation takes longer than a second one is what is made once.
 const Interview::Coefficients& Interview::coefficients_of(const scene::Scene& scene, const std::string& name) {
   if (const auto known = coefficients_.find(name); known != coefficients_.end()) return known->second;
+  if (steps(scene)) compile::require_no_sections(scene);
   Coefficients made;
   const auto preparing_s = [&] {
     const double begin = processor_s();

@@ -9,11 +9,14 @@
 #include <optional>
 #include <stdexcept>
 
+#include "answers/convergence.hpp"
 #include "answers/provenance.hpp"
 #include "answers/refined.hpp"
+#include "answers/section_error.hpp"
 #include "answers/size_left_out.hpp"
 #include "answers/spacing.hpp"
 #include "compile/members.hpp"
+#include "compile/sections.hpp"
 #include "compile/waves.hpp"
 #include "dynamics/frequency/linear_drag.hpp"
 #include "dynamics/frequency/sea_drag.hpp"
@@ -204,6 +207,39 @@ void require_two_frequencies(const scene::AskRao& ask) {
 
 }  // namespace
 
+namespace {
+
+template <class S>
+std::vector<std::string> names_of_signals(const std::vector<S>& signals) {
+  std::vector<std::string> out;
+  for (const S& s : signals) out.push_back(s.name);
+  return out;
+}
+
+/// Of each signal, over its peak.
+std::vector<double> largest_changes(const std::vector<ComplexSignal>& signals, const SignalValues& others) {
+  std::vector<double> out = peaks_of(signals);
+  for (std::size_t i = 0; i < signals.size(); ++i) {
+    const auto other = others(i);
+    double largest = 0;
+    for (std::size_t c = 0; c < other.size(); ++c)
+      largest = std::max(largest, std::abs(other[c] - signals[i].values[c]));
+    out[i] = out[i] > 0 ? largest / out[i] : 0;
+  }
+  return out;
+}
+
+/// Those of which a load is among the signals.
+std::vector<SectionAtRest> chosen_sections(std::vector<SectionAtRest> all, const std::vector<std::string>& signals) {
+  std::erase_if(all, [&](const SectionAtRest& section) {
+    return std::none_of(signals.begin(), signals.end(),
+                        [&](const std::string& name) { return name.starts_with(section.name + "."); });
+  });
+  return all;
+}
+
+}  // namespace
+
 Responses respond(const scene::Scene& scene) { return respond(scene, compile::prepare(scene)); }
 
 Responses respond(const scene::Scene& scene, const compile::Prepared& prepared, const HowToRespond& how) {
@@ -246,11 +282,23 @@ Responses respond(const scene::Scene& scene, const compile::Prepared& prepared, 
     out.signals = responses_of(signals, variations, answer(prepared, out.omega, out.notes));
   }
   for (const std::string& told : size.told()) out.notes.push_back(told);
-  out.error = error_of_spacing(scene, prepared, out.omega, out.signals, [&](const compile::Prepared& thinned) {
-    return [&variations, found = answer(thinned, out.omega, told_already)](std::size_t i) {
-      return found.of(variations[i]);
-    };
-  });
+  const LinearAnswer values_from = [&](const compile::Prepared& other) -> SignalValues {
+    auto found = answer(other, out.omega, told_already);
+    // Sectional loads have tables of their own, which other coefficients change too.
+    if (prepared.sections.empty())
+      return [&variations, found = std::move(found)](std::size_t i) { return found.of(variations[i]); };
+    std::vector<std::string> told_of_signals;
+    const auto its_own = variations_of(compile::chosen_responses(compile::signal_list(scene, other, model),
+                                                                 scene.rao->of, scene.rao->of_places, told_of_signals),
+                                       about);
+    return [its_own, found = std::move(found)](std::size_t i) { return found.of(its_own[i]); };
+  };
+  out.error = error_of_spacing(scene, prepared, out.omega, out.signals, values_from);
+  if (how.judge_sections)
+    add_error_of_sections(
+        scene, prepared, names_of_signals(out.signals),
+        [&](const compile::Prepared& other) { return largest_changes(out.signals, values_from(other)); }, out.error);
+  out.sections = chosen_sections(compile::sections_at_rest(scene, prepared, about), names_of_signals(out.signals));
   if (between)
     out.error.sources.push_back({.name = "frequencies",
                                  .how = "straight lines between them, by the bend in the middle of each interval",
@@ -306,13 +354,27 @@ Run steady_run(const scene::Scene& scene, const std::shared_ptr<compile::Kept>& 
   const auto signals = compile::chosen_responses(compile::signal_list(scene, prepared, model), scene.run->of,
                                                  scene.run->of_places, record.notes);
   const auto answer = [&](const compile::Prepared& from) {
-    Eigen::MatrixXcd out = transfer(from, about, signals, sea, threads);
+    std::vector<std::string> told_already;
+    const auto its_own = compile::chosen_responses(compile::signal_list(scene, from, model), scene.run->of,
+                                                   scene.run->of_places, told_already);
+    Eigen::MatrixXcd out = transfer(from, about, its_own, sea, threads);
     for (Eigen::Index c = 0; c < out.cols(); ++c)
       out.col(c) *= compile::elevation_at_origin(sea.components()[static_cast<std::size_t>(c)]);
     return out;
   };
   const Eigen::MatrixXcd amplitudes = answer(prepared);
   record.error = error_of_spacing(scene, prepared, signals, amplitudes, answer);
+  const Eigen::VectorXd size = amplitudes.rowwise().norm();
+  const auto scale = at_least_a_thousandth({size.begin(), size.end()}, signals, &compile::Signal::unit);
+  add_error_of_sections(
+      scene, prepared, names_of_signals(signals),
+      [&](const compile::Prepared& other) {
+        const Eigen::VectorXd off = (answer(other) - amplitudes).rowwise().norm();
+        std::vector<double> out(off.begin(), off.end());
+        for (std::size_t i = 0; i < out.size(); ++i) out[i] = scale[i] > 0 ? out[i] / scale[i] : 0;
+        return out;
+      },
+      record.error);
   const auto samples = static_cast<std::size_t>(std::llround(scene.run->duration / scene.run->every)) + 1;
   const auto series = hydro::waves::synthesise(sea, {scene.run->every, samples}, amplitudes).series;
   for (std::size_t i = 0; i < samples; ++i) record.time.push_back(static_cast<double>(i) * scene.run->every);

@@ -34,6 +34,7 @@ struct HowToRespond {
   int threads = hydro::all_processors();  ///< which share the frequencies; numbers do not depend on how many there are
   bool refine =
       false;  ///< frequencies are put between those asked for, until straight lines are within `accuracy` (Q15)
+  bool judge_sections = true;  ///< errors of sectional loads are told, and refused where they miss the accuracy asked
   const Eigen::VectorXd* drag_of_sea =
       nullptr;  ///< coefficients of the pieces of members with drag, N s/m, in place of [ask.rao.drag] (D143)
 };

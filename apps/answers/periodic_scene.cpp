@@ -8,6 +8,8 @@
 #include <utility>
 #include <variant>
 
+#include "compile/sections.hpp"
+
 namespace froude {
 namespace {
 
@@ -44,6 +46,7 @@ scene::Scene in_waves(scene::Scene scene, double period, double height) {
 }
 
 compile::Prepared prepare_periodic(const scene::Scene& scene, const std::shared_ptr<compile::Kept>& kept) {
+  compile::require_no_sections(scene);
   compile::Prepared out = compile::prepare(scene, kept);
   using Method = scene::Memory::Method;
   for (scene::Memory& memory : out.memory) {

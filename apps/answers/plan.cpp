@@ -12,6 +12,7 @@
 #include "compile/hydrodynamics.hpp"
 #include "compile/integrator.hpp"
 #include "compile/members.hpp"
+#include "compile/sections.hpp"
 #include "compile/waves.hpp"
 #include "hydro/base/machine.hpp"
 
@@ -212,6 +213,7 @@ double plan_coefficients(const scene::Scene& scene, std::vector<Section>& sectio
 
 Plan plan(const scene::Scene& scene, const std::shared_ptr<compile::Kept>& kept) {
   Plan out;
+  if (scene.run && !scene.run->steady) compile::require_no_sections(scene);
   constexpr double patience_s = 60;
   if (plan_coefficients(scene, out.sections) > patience_s) {
     out.notes = {

@@ -120,6 +120,7 @@ class Densities {
     scene_.rao->omega = omega;
     HowToRespond how;
     if (drag_) how.drag_of_sea = &drag_->coefficient;
+    how.judge_sections = !first_;  // at the frequencies of the scene, of whose peaks errors are a share
     const Responses r = respond(scene_, *prepared_, how);
     if (!first_) {
       first_ = std::make_unique<Responses>(r);
@@ -171,7 +172,8 @@ ResponseSpectra answer_of(const scene::Scene& scene, std::size_t sea, const Dens
                       .signals = {},
                       .notes = r.notes,
                       .warnings = r.warnings(),
-                      .drag = found.drag()};
+                      .drag = found.drag(),
+                      .sections = r.sections};
   for (std::size_t s = 0; s < r.signals.size(); ++s) {
     std::string units = r.signals[s].units;
     units.resize(units.size() - std::string_view("/m").size());  // per metre of wave amplitude no more

@@ -8,6 +8,7 @@
 
 #include "answers/sea_drag.hpp"
 #include "compile/kept.hpp"
+#include "froude/result.hpp"
 #include "hydro/signal/spectrum.hpp"
 #include "scene/scene.hpp"
 
@@ -29,6 +30,7 @@ struct ResponseSpectra {
   std::vector<std::string> notes;         ///< what had to be decided, and what is left out, but for the second order
   std::vector<std::string> warnings;      ///< what is not to be trusted
   std::optional<DragInSea> drag = {};     ///< where members have drag, in still water
+  std::vector<SectionAtRest> sections = {};
 };
 
 /// One answer for each of several scenes that differ in their waves alone, which share frequencies and transfer

@@ -165,8 +165,10 @@ std::string Run::accuracy() const { return accuracy_of(error, signals, ""); }
 std::string Responses::accuracy() const { return accuracy_of(error, signals, " of the peak"); }
 
 std::vector<std::string> Responses::warnings() const {
-  const std::string warning = warning_of_error(error, signals, "peak");
-  return warning.empty() ? std::vector<std::string>() : std::vector{warning};
+  std::vector<std::string> out;
+  for (std::string warning : {warning_of_error(error, signals, "peak"), warning_of_unseen(error)})
+    if (!warning.empty()) out.push_back(std::move(warning));
+  return out;
 }
 
 std::vector<std::string> Run::warnings() const {
@@ -203,7 +205,7 @@ void Responses::write(const std::filesystem::path& path) const {
   add_notes(notes, p);
   add_notes(warnings(), p, "warning");
   if (const std::string told = accuracy(); !told.empty()) p.settings.emplace_back("estimated.accuracy", told);
-  write_rao(path, omega, heading, signals, p, error);
+  write_rao(path, omega, heading, signals, p, error, sections);
 }
 
 void WaterSeries::write(const std::filesystem::path& path) const {

@@ -1,4 +1,6 @@
 
+#include <fmt/format.h>
+
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -106,8 +108,42 @@ void write_run(const std::filesystem::path& path, const std::vector<double>& tim
   file.save(path);
 }
 
+namespace {
+
+/// In a group of their own, whose arrays all stand along its sections.
+void write_sections(Hdf5Writer& file, const std::vector<SectionAtRest>& sections) {
+  if (sections.empty()) return;
+  constexpr std::array<const char*, 6> component{"force_x", "force_y", "force_z", "moment_x", "moment_y", "moment_z"};
+  const std::string group = "/section_at_rest", along = group + "/section";
+  std::vector<std::string> names;
+  for (const SectionAtRest& s : sections) names.push_back(s.name);
+  file.write_texts(along, names);
+  file.make_dimension(along);
+  const auto write = [&](const std::string& name, const char* unit, const std::string& meaning, auto value_of) {
+    std::vector<double> values;
+    for (const SectionAtRest& s : sections) values.push_back(value_of(s));
+    const std::string dataset = group + "/" + name;
+    file.write(dataset, values, {values.size()});
+    file.attach_dimension(dataset, 0, along);
+    describe(file, dataset, unit, meaning);
+  };
+  for (std::size_t i = 0; i < 3; ++i) {
+    const char axis = "xyz"[i];
+    write(std::string("at_") + axis, "m", "a point of the section, from the body's origin, body axes",
+          [i](const SectionAtRest& s) { return s.at[i]; });
+    write(std::string("normal_") + axis, "1", "of the section, into the part that is described, body axes",
+          [i](const SectionAtRest& s) { return s.normal[i]; });
+  }
+  for (std::size_t i = 0; i < component.size(); ++i)
+    write(component[i], i < 3 ? "N" : "N m", fmt::format("{} at rest, on the part that is described", component[i]),
+          [i](const SectionAtRest& s) { return s.load[i]; });
+}
+
+}  // namespace
+
 void write_rao(const std::filesystem::path& path, const std::vector<double>& omega, const std::vector<double>& heading,
-               const std::vector<ComplexSignal>& signals, const Provenance& provenance, const ErrorEstimate& error) {
+               const std::vector<ComplexSignal>& signals, const Provenance& provenance, const ErrorEstimate& error,
+               const std::vector<SectionAtRest>& sections) {
   const bool several = heading.size() != 1;
   Hdf5Writer file(provenance.packing);
   write_provenance(file, rao_kind, provenance);
@@ -136,6 +172,7 @@ void write_rao(const std::filesystem::path& path, const std::vector<double>& ome
     describe(file, dataset, signal.units, signal.long_name);
     write_error(file, dataset, error, i);
   }
+  write_sections(file, sections);
   file.save(path);
 }
 

@@ -8,6 +8,7 @@
 #include "answers/fit_measurements.hpp"
 #include "compile/integrator.hpp"
 #include "compile/radiation.hpp"
+#include "compile/sections.hpp"
 #include "dynamics/integrate/newton_integrator.hpp"
 #include "fit/sensor.hpp"
 #include "hydro/base/error.hpp"
@@ -336,6 +337,7 @@ void SceneRuns::compiled(const Eigen::VectorXd& parameters) {
     scene_.run->of.push_back(s.of);
     scene_.run->of_places.push_back(s.deviation.place);
   }
+  compile::require_no_sections(scene_);
   prepared_ = compile::prepare(scene_, prepared_.kept);
   for (std::size_t i = 0; i < memory_methods_.size(); ++i) prepared_.memory[i].method = memory_methods_[i];
   model_.emplace(compile::time_model(scene_, prepared_));

@@ -12,6 +12,7 @@
 #include "answers/provenance.hpp"
 #include "compile/integrator.hpp"
 #include "compile/joint_control.hpp"
+#include "compile/sections.hpp"
 #include "compile/signal_list.hpp"
 #include "dynamics/force/fastened_line.hpp"
 #include "dynamics/integrate/start_with_lines.hpp"
@@ -367,6 +368,7 @@ Run simulate_controlled(const scene::Scene& scene, const std::function<void(doub
   if (scene.run->steady)
     throw hydro::InputError("[ask.run] start = \"steady\" takes no step at which a controller could decide",
                             scene.run->place, "step the run from \"as placed\"");
+  compile::require_no_sections(scene);
   const auto begin = Clock::now();
   compile::Prepared prepared = compile::prepare(scene, kept);
   compile::set_controllers(controls, prepared);
@@ -384,6 +386,7 @@ Run simulate(const scene::Scene& scene, const std::function<void(double)>& done,
              const Interruption* interruption) {
   if (!controls.empty()) return simulate_controlled(scene, done, controls, {}, kept);
   if (scene.run->steady) return steady_run(scene, kept, threads);
+  compile::require_no_sections(scene);
   const auto begin = Clock::now();
   const compile::Prepared prepared = compile::prepare(scene, kept);
   const double preparation = seconds_since(begin);

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <memory>
 
 #include "answers/convergence.hpp"
 #include "answers/estimate.hpp"
@@ -39,6 +41,14 @@ compile::Prepared thinned(std::size_t n, const scene::Scene& scene, const compil
     for (const int b : group.bodies) origins.push_back(scene.bodies[static_cast<std::size_t>(b)].position);
     group.table = hydro::potential::FrequencyTable(every(n, group.table.coefficients()), std::move(origins));
   }
+  using hydro::potential::FrequencyTable;
+  std::map<std::shared_ptr<const FrequencyTable>, std::shared_ptr<const FrequencyTable>> of_parts;
+  for (auto& section : out.sections) {
+    auto& table = of_parts[section.table];
+    if (!table)
+      table = std::make_shared<const FrequencyTable>(every(n, section.table->coefficients()), section.origins);
+    section.table = table;
+  }
   return out;
 }
 
@@ -54,16 +64,6 @@ bool is_between(const compile::Prepared& prepared, double omega) {
 double rounding_of(const std::string& unit) {
   constexpr double motion = 1e-9;
   return unit.find_first_of("NJW") == std::string::npos ? motion : 0;
-}
-
-std::vector<double> peaks(const std::vector<ComplexSignal>& signals) {
-  std::vector<double> out;
-  for (const auto& s : signals) {
-    double square = 0;
-    for (const auto& v : s.values) square = std::max(square, std::norm(v));
-    out.push_back(std::max(std::sqrt(square), rounding_of(s.units)));
-  }
-  return at_least_a_thousandth(std::move(out), signals, &ComplexSignal::units);
 }
 
 /// (E3): the error of the whole by what half and a quarter of the frequencies change, in any unit.
@@ -108,6 +108,16 @@ ErrorEstimate::Source spacing_source() {
 
 }  // namespace
 
+std::vector<double> peaks_of(const std::vector<ComplexSignal>& signals) {
+  std::vector<double> out;
+  for (const auto& s : signals) {
+    double square = 0;
+    for (const auto& v : s.values) square = std::max(square, std::norm(v));
+    out.push_back(std::max(std::sqrt(square), rounding_of(s.units)));
+  }
+  return at_least_a_thousandth(std::move(out), signals, &ComplexSignal::units);
+}
+
 ErrorEstimate error_of_spacing(const scene::Scene& scene, const compile::Prepared& prepared,
                                const std::vector<double>& omega, const std::vector<ComplexSignal>& whole,
                                const LinearAnswer& answer) {
@@ -117,7 +127,7 @@ ErrorEstimate error_of_spacing(const scene::Scene& scene, const compile::Prepare
   if (std::none_of(counts.begin(), counts.end(), [](bool c) { return c; })) return out;
   if (out.missing = too_few(prepared); !out.missing.empty()) return out;
   const auto half = answer(thinned(2, scene, prepared)), quarter = answer(thinned(4, scene, prepared));
-  const auto peak = peaks(whole);
+  const auto peak = peaks_of(whole);
   out.sources.push_back(spacing_source());
   for (std::size_t i = 0; i < whole.size(); ++i)
     out.sources.front().of_signal.push_back(worst(whole[i].values, half(i), quarter(i), peak[i], counts));

@@ -15,6 +15,10 @@ namespace froude {
 /// those of all signals at once would fill fresh memory.
 using SignalValues = std::function<std::vector<std::complex<double>>(std::size_t)>;
 
+/// Of each signal its largest value, but none less than a thousandth of the largest of its unit, nor than what rounding
+/// leaves.
+std::vector<double> peaks_of(const std::vector<ComplexSignal>& signals);
+
 /// A linear answer from these coefficients.
 using LinearAnswer = std::function<SignalValues(const compile::Prepared&)>;
 

@@ -48,20 +48,21 @@ struct RuledConnectors {
   scene::Place place;  ///< of the [[connector]], if it is the scene's rule
 };
 
-/// What both domains share: bodies, coefficients placed about the centres of gravity, springs. In the order of the
-/// scene.
 /// A section of a body, and where its loads are in a table of loads on parts (hydro::panels::Solution::parts), about
 /// the centres of gravity of bodies.
 struct PreparedSection {
   int body;
   std::size_t section;  ///< of scene::Body::sections
   std::shared_ptr<const hydro::potential::FrequencyTable> table;
-  Eigen::Index row;                   ///< the first of six
-  std::vector<int> bodies;            ///< of the scene, whose motions make waves that reach it
-  std::vector<Eigen::Index> columns;  ///< the first of six of each of these
-  bool radiation, excitation;         ///< effects that act
+  Eigen::Index row;                           ///< the first of six
+  std::vector<int> bodies;                    ///< of the scene, whose motions make waves that reach it
+  std::vector<Eigen::Index> columns;          ///< the first of six of each of these
+  bool radiation, excitation;                 ///< effects that act
+  std::vector<Eigen::Vector3d> origins = {};  ///< of the table
 };
 
+/// What both domains share: bodies, coefficients placed about the centres of gravity, springs. In the order of the
+/// scene.
 struct Prepared {
   std::vector<dynamics::RigidBody> bodies;
   std::vector<dynamics::frequency::PotentialGroup> groups;

@@ -144,17 +144,28 @@ Coefficients in_place(Coefficients c, const HullRequest& r) {
   return hydro::potential::translated(std::move(c), r.from_origin);
 }
 
-std::string key_of_parts(const std::string& key) { return key + "parts"; }
+constexpr std::size_t doubted_sets = 3;  // hydro::panels::Solution::doubted, with a tolerance
+
+/// The coefficients of a solution, each with what it is called beside the first.
+std::vector<std::pair<std::string, Coefficients*>> sets_of(hp::Solution& s) {
+  std::vector<std::pair<std::string, Coefficients*>> out{{"", &s.coefficients}};
+  if (s.parts) out.emplace_back("parts", &*s.parts);
+  for (std::size_t i = 0; i < s.doubted.size(); ++i) {
+    out.emplace_back(fmt::format("doubted{}", i), &s.doubted[i].coefficients);
+    out.emplace_back(fmt::format("doubted{} parts", i), &s.doubted[i].parts);
+  }
+  return out;
+}
 
 hp::Solution solved_and_kept(const HullRequest& r, const hydro::Water& water) {
   hp::Options options = r.options;
   options.progress = watcher_of_hulls();
   hp::Solution s = scene::placed(r.place, [&] { return hp::solve(r.bodies, water, r.omega, r.headings, options); });
   const std::string key = key_of_hulls(r, water);
-  keep_coefficients(key, s.coefficients);
-  if (s.parts) keep_coefficients(key_of_parts(key), *s.parts);
-  s.coefficients = in_place(std::move(s.coefficients), r);
-  if (s.parts) s.parts = in_place(*std::move(s.parts), r);
+  for (const auto& [name, set] : sets_of(s)) {
+    keep_coefficients(key + name, *set);
+    *set = in_place(std::move(*set), r);
+  }
   return s;
 }
 
@@ -205,42 +216,78 @@ Coefficients coefficients_of_hulls(const Scene& scene, const std::vector<int>& b
 
 namespace {
 
-/// Of whole hulls, and of their parts.
-struct WholeAndParts {
-  Coefficients whole, parts;
-};
-
-WholeAndParts whole_and_parts(const Scene& scene, const std::vector<int>& bodies) {
+/// Of hulls with sections, without its check: as an earlier process kept it, or solved.
+hp::Solution solution_with_parts(const Scene& scene, const std::vector<int>& bodies) {
   const HullRequest r = hull_request(scene, bodies);
   const std::string key = key_of_hulls(r, scene.water);
-  auto whole = kept_coefficients(key, scene.water), parts = kept_coefficients(key_of_parts(key), scene.water);
-  if (whole && parts) return {in_place(std::move(*whole), r), in_place(std::move(*parts), r)};
-  hp::Solution s = solved_and_kept(r, scene.water);
-  return {std::move(s.coefficients), *std::move(s.parts)};
+  hp::Solution s;
+  s.parts.emplace();
+  s.doubted.resize(doubted_sets);
+  for (const auto& [name, set] : sets_of(s)) {
+    auto kept = kept_coefficients(key + name, scene.water);
+    if (!kept) return solved_and_kept(r, scene.water);
+    *set = in_place(std::move(*kept), r);
+  }
+  return s;
 }
 
-std::string name_of_parts(const std::string& name) { return name + " | parts"; }
+/// The set that is asked for; all of them are known to `kept` from then on.
+const Coefficients& set_of_hulls(const Scene& scene, Kept& kept, const std::string& wanted) {
+  const std::vector<int> bodies = bodies_of_meshes(scene);
+  const std::string title = what_hulls_are_solved(scene, bodies);
+  hp::Solution s;
+  s.parts.emplace();
+  s.doubted.resize(doubted_sets);
+  bool solved = false;
+  const Coefficients* out = nullptr;
+  for (std::size_t i = 0; i < sets_of(s).size(); ++i) {
+    const std::string name = sets_of(s)[i].first;
+    const Coefficients& known = kept.coefficients(title + name, [&] {
+      if (!std::exchange(solved, true)) s = solution_with_parts(scene, bodies);
+      return std::move(*sets_of(s)[i].second);
+    });
+    if (name == wanted) out = &known;
+  }
+  return *out;
+}
 
 }  // namespace
 
-const Coefficients& parts_of_hulls(const Scene& scene, Kept& kept) {
-  const std::vector<int> bodies = bodies_of_meshes(scene);
-  return kept.coefficients(name_of_parts(what_hulls_are_solved(scene, bodies)),
-                           [&] { return whole_and_parts(scene, bodies).parts; });
+hp::HullBody hull_of(const Scene& scene, int body) {
+  const scene::Body& of = scene.bodies[static_cast<std::size_t>(body)];
+  const scene::Hydrodynamics& h = hydrodynamics_of(scene, body);
+  const Eigen::Vector3d centre = of.position + of.centre_of_gravity;
+  return scene::placed(h.file.place, [&] {
+    hp::HullBody out{of.name, centre, centre, HullMeshes().at(*h.mesh, of.position)};
+    add_sections(of, of.position, out);
+    return out;
+  });
+}
+
+const Coefficients& parts_of_hulls(const Scene& scene, Kept& kept) { return set_of_hulls(scene, kept, "parts"); }
+
+std::vector<std::shared_ptr<Kept>> kept_doubted(const Scene& scene, Kept& kept) {
+  const std::string title = what_hulls_are_solved(scene, bodies_of_meshes(scene));
+  std::vector<std::shared_ptr<Kept>> out;
+  for (std::size_t i = 0; i < doubted_sets; ++i) {
+    const std::string of = fmt::format("doubted{}", i);
+    const Coefficients &whole = set_of_hulls(scene, kept, of), &parts = set_of_hulls(scene, kept, of + " parts");
+    out.push_back(std::make_shared<Kept>());
+    hp::Solution names;
+    names.parts.emplace();
+    names.doubted.resize(doubted_sets);
+    for (const auto& set : sets_of(names))
+      out.back()->coefficients(title + set.first, [&] { return set.first.ends_with("parts") ? parts : whole; });
+  }
+  return out;
 }
 
 const Coefficients& kept_coefficients_of_hulls(const Scene& scene, Kept& kept) {
   const std::vector<int> bodies = bodies_of_meshes(scene);
-  const std::string name = what_hulls_are_solved(scene, bodies);
-  std::optional<Coefficients> whole;
   if (std::any_of(bodies.begin(), bodies.end(),
                   [&](int b) { return !scene.bodies[static_cast<std::size_t>(b)].sections.empty(); }))
-    kept.coefficients(name_of_parts(name), [&] {
-      WholeAndParts both = whole_and_parts(scene, bodies);
-      whole = std::move(both.whole);
-      return std::move(both.parts);
-    });
-  return kept.coefficients(name, [&] { return whole ? *std::move(whole) : coefficients_of_hulls(scene, bodies); });
+    return set_of_hulls(scene, kept, "");
+  return kept.coefficients(what_hulls_are_solved(scene, bodies), [&] { return coefficients_of_hulls(scene, bodies); });
 }
 
 std::string what_hulls_are_solved(const Scene& scene, const std::vector<int>& bodies) {

@@ -2,6 +2,7 @@
 /// \file  Coefficients of the hulls whose meshes a scene names.
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -34,9 +35,15 @@ hydro::potential::WaveField field_of_hulls(const scene::Scene& scene, const std:
 /// The coefficients of solve_hulls(): those that an earlier process kept where it did, which a note then says.
 hydro::potential::Coefficients coefficients_of_hulls(const scene::Scene& scene, const std::vector<int>& bodies);
 
+/// The hull of a body with a mesh where the scene places it, about its centre of gravity, with its sections.
+/// \throws hydro::InputError as solve_hulls()
+hydro::panels::HullBody hull_of(const scene::Scene& scene, int body);
+
 /// Loads on the parts that sections cut off, hydro::panels::Solution::parts, of all bodies of meshes; kept by this
 /// process beside the coefficients, which are solved with them once.
 const hydro::potential::Coefficients& parts_of_hulls(const scene::Scene& scene, Kept& kept);
+/// What knows hydro::panels::Solution::doubted in the place of the coefficients of all bodies of meshes.
+std::vector<std::shared_ptr<Kept>> kept_doubted(const scene::Scene& scene, Kept& kept);
 /// coefficients_of_hulls() of all bodies of meshes, likewise.
 const hydro::potential::Coefficients& kept_coefficients_of_hulls(const scene::Scene& scene, Kept& kept);
 

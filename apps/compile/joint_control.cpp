@@ -1,5 +1,6 @@
 #include "compile/joint_control.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -18,6 +19,23 @@ class CommandedJoints final : public scene::Elements {
   std::size_t count() const override { return all_.size(); }
   std::unique_ptr<const dynamics::ForceKind> force(const Site&) const override {
     return std::make_unique<dynamics::CommandedForceKind>(all_);
+  }
+  std::unique_ptr<const dynamics::ForceKind> force_of(const Site&, const std::vector<bool>& counts) const override {
+    std::vector<dynamics::Pto> some;
+    for (std::size_t i = 0; i < all_.size(); ++i)
+      if (counts[i]) some.push_back(all_[i]);
+    return std::make_unique<dynamics::CommandedForceKind>(std::move(some));
+  }
+  std::vector<scene::Attack> attacks(const Site& site) const override {
+    std::vector<scene::Attack> out;
+    for (std::size_t i = 0; i < all_.size(); ++i) {
+      const auto joint =
+          std::find_if(site.joints.begin(), site.joints.end(), [&](const auto& j) { return j.name == all_[i].name; });
+      const dynamics::JointArms arms = dynamics::arms_at_rest(site.bodies, *joint);
+      out.push_back({i, joint->name, joint->first, arms.first});
+      if (joint->second) out.push_back({i, joint->name, *joint->second, arms.second});
+    }
+    return out;
   }
 
  private:

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "compile/fastened.hpp"
 #include "compile/hulls.hpp"
 #include "compile/kept.hpp"
 #include "dynamics/joint/joint.hpp"
@@ -19,6 +20,9 @@ using hydro::InputError;
 using hydro::potential::Coefficients;
 using scene::Scene;
 using scene::Section;
+
+constexpr std::array<const char*, 6> components_of_load{"force_x",  "force_y",  "force_z",
+                                                        "moment_x", "moment_y", "moment_z"};
 
 const scene::Body& body_of(const Scene& scene, int body) { return scene.bodies[static_cast<std::size_t>(body)]; }
 
@@ -41,53 +45,6 @@ std::vector<Vector3d> origins(const Scene& scene, const std::vector<int>& bodies
   for (const int b : bodies) out.push_back(body_of(scene, b).position);
   for (const int b : bodies) out.insert(out.end(), body_of(scene, b).sections.size(), body_of(scene, b).position);
   return out;
-}
-
-// ---- what acts on the part
-
-/// What is fixed to a body at a point, body axes.
-struct Attached {
-  int body;
-  Vector3d at;
-  std::string name;
-};
-
-void add_pair(const scene::PointPair& pair, std::vector<Attached>& out) {
-  out.push_back({pair.first, pair.first_end, pair.name});
-  if (pair.second) out.push_back({*pair.second, pair.second_end, pair.name});
-}
-
-/// All that loads bodies at points. Matrices of moorings and elements of one body act at its origin.
-std::vector<Attached> attached(const Scene& scene) {
-  std::vector<Attached> out;
-  for (const scene::Connector& c : scene.connectors) add_pair(c, out);
-  for (const scene::Joint& j : scene.joints)
-    for (const std::optional<int>& body : {j.first, j.second})
-      if (body) out.push_back({*body, j.at - body_of(scene, *body).position, j.name});
-  for (const scene::CatenaryLine& line : scene.catenaries) out.push_back({line.body, line.fairlead, line.name});
-  for (const dynamics::Restoring& mooring : scene.moorings)
-    out.push_back({mooring.body, Vector3d::Zero(), "[[mooring]]"});
-  for (const scene::Line& line : scene.lines)
-    for (const scene::Line::End* end : {&line.from, &line.to})
-      if (end->body && end->at) out.push_back({*end->body, *end->at, line.name});
-  for (const scene::Member& member : scene.members)
-    for (const Vector3d& at : {member.from, member.to}) out.push_back({member.body, at, member.name});
-  for (const auto& elements : scene.elements)
-    for (std::size_t b = 0; b < scene.bodies.size(); ++b)
-      out.push_back({static_cast<int>(b), Vector3d::Zero(), "[[" + elements->table() + "]]"});
-  return out;
-}
-
-/// The loads of what acts on the other part are not asked for: what holds the part carries them.
-void require_on_other_part(const Scene& scene, int body, const Section& section) {
-  for (const Attached& a : attached(scene)) {
-    if (a.body != body || section.normal.dot(a.at - section.at) < 0) continue;
-    throw InputError(
-        fmt::format("{} acts on the part of \"{}\" that section \"{}\" describes, at ({:.4g}, {:.4g}, {:.4g}) m; its "
-                    "load there has no share in sectional loads",
-                    a.name, body_of(scene, body).name, section.name, a.at.x(), a.at.y(), a.at.z()),
-        section.place, "describe the other part: turn `normal` round, and give mass and centre_of_gravity of that one");
-  }
 }
 
 /// Still water must be that of the mesh.
@@ -130,12 +87,15 @@ dynamics::Matrix6 weight_of(const Section& section, double gravity) {
 struct SectionalLoad {
   PreparedSection at;
   dynamics::Matrix6 shift, by_acceleration, by_motion;
+  FastenedToPart fastened;
 };
 
-SectionalLoad sectional_load(const Scene& scene, const PreparedSection& at) {
+SectionalLoad sectional_load(const Scene& scene, const Prepared& prepared, const dynamics::Model& model,
+                             const PreparedSection& at) {
   const scene::Body& body = body_of(scene, at.body);
   const Section& section = body.sections[at.section];
-  SectionalLoad out{at, to_section(body, section), inertia_of(body, section), dynamics::Matrix6::Zero()};
+  SectionalLoad out{at, to_section(body, section), inertia_of(body, section), dynamics::Matrix6::Zero(),
+                    FastenedToPart(scene, prepared, model, at.body, section)};
   const auto own = static_cast<std::size_t>(std::find(at.bodies.begin(), at.bodies.end(), at.body) - at.bodies.begin());
   const bool floats = body.hydrodynamics->hydrostatics || body.buoyancy;
   if (floats) out.by_motion += out.shift * at.table->coefficients().C->block<6, 6>(at.row, at.columns[own]);
@@ -143,23 +103,32 @@ SectionalLoad sectional_load(const Scene& scene, const PreparedSection& at) {
   return out;
 }
 
-dynamics::Variation variation_of(const SectionalLoad& load, Index component) {
-  dynamics::Variation out;
+/// By what is fastened to the part; all six, which the first of the signals that asks makes.
+const std::vector<dynamics::Variation>& less_fastened(const SectionalLoad& load, const dynamics::Still& still) {
+  return still.once(&load, [&] { return product(-load.shift, load.fastened.variations(still)); });
+}
+
+using SharedLoad = std::shared_ptr<const SectionalLoad>;
+
+dynamics::Variation variation_of(const SharedLoad& shared, Index component, const dynamics::Still& still) {
+  const SectionalLoad& load = *shared;
+  dynamics::Variation out = less_fastened(load, still)[static_cast<std::size_t>(component)];
   out.parts.push_back({.body = load.at.body,
                        .by_motion = load.by_motion.row(component),
                        .by_acceleration = load.by_acceleration.row(component)});
   if (load.at.excitation)
-    out.by_wave = [load, component](double omega, double heading) -> std::complex<double> {
-      const Eigen::VectorXcd X = load.at.table->excitation(omega, heading);
-      return -(load.shift.row(component) * X.segment<6>(load.at.row))(0);
+    out.by_wave = [shared, component](double omega, double heading) -> std::complex<double> {
+      const Eigen::VectorXcd X = shared->at.table->excitation(omega, heading);
+      return -(shared->shift.row(component) * X.segment<6>(shared->at.row))(0);
     };
   if (!load.at.radiation) return out;
-  out.by_radiation = {load.at.bodies, [load, component](double omega) -> Eigen::RowVectorXcd {
-                        const Eigen::MatrixXd A = load.at.table->added_mass(omega), B = load.at.table->damping(omega);
-                        Eigen::RowVectorXcd row(6 * static_cast<Index>(load.at.columns.size()));
-                        for (std::size_t b = 0; b < load.at.columns.size(); ++b) {
+  out.by_radiation = {load.at.bodies, [shared, component](double omega) -> Eigen::RowVectorXcd {
+                        const PreparedSection& at = shared->at;
+                        const Eigen::MatrixXd A = at.table->added_mass(omega), B = at.table->damping(omega);
+                        Eigen::RowVectorXcd row(6 * static_cast<Index>(at.columns.size()));
+                        for (std::size_t b = 0; b < at.columns.size(); ++b) {
                           const auto of = [&](const Eigen::MatrixXd& M) -> Eigen::RowVectorXd {
-                            return load.shift.row(component) * M.block<6, 6>(load.at.row, load.at.columns[b]);
+                            return shared->shift.row(component) * M.block<6, 6>(at.row, at.columns[b]);
                           };
                           row.segment<6>(6 * static_cast<Index>(b)).real() = -omega * omega * of(A);
                           row.segment<6>(6 * static_cast<Index>(b)).imag() = omega * of(B);
@@ -169,18 +138,22 @@ dynamics::Variation variation_of(const SectionalLoad& load, Index component) {
   return out;
 }
 
-void add_one_section(const Scene& scene, const SectionalLoad& load, std::vector<Signal>& out) {
-  constexpr std::array<const char*, 6> component{"force_x", "force_y", "force_z", "moment_x", "moment_y", "moment_z"};
-  const scene::Body& body = body_of(scene, load.at.body);
-  const std::string name = body.name + "." + body.sections[load.at.section].name;
+std::string name_of(const Scene& scene, const PreparedSection& at) {
+  const scene::Body& body = body_of(scene, at.body);
+  return body.name + "." + body.sections[at.section].name;
+}
+
+void add_one_section(const Scene& scene, const SharedLoad& load, std::vector<Signal>& out) {
+  const scene::Body& body = body_of(scene, load->at.body);
+  const std::string name = name_of(scene, load->at);
   for (Index i = 0; i < 6; ++i) {
-    const char* what = component[static_cast<std::size_t>(i)];
+    const char* what = components_of_load[static_cast<std::size_t>(i)];
     out.push_back({fmt::format("{}.{}", name, what),
                    dynamics::load_unit(static_cast<int>(i)),
                    fmt::format("{} of section {} on the part that it describes, along axes of {}{}", what, name,
                                body.name, i < 3 ? "" : ", about its point"),
                    {},
-                   [load, i](const dynamics::Still&) { return variation_of(load, i); }});
+                   [load, i](const dynamics::Still& still) { return variation_of(load, i, still); }});
   }
 }
 
@@ -205,18 +178,96 @@ void add_sections(const Scene& scene, Prepared& prepared) {
   auto row = 6 * static_cast<Index>(meshes.size());
   for (const int b : meshes)
     for (std::size_t s = 0; s < body_of(scene, b).sections.size(); ++s, row += 6) {
-      require_on_other_part(scene, b, body_of(scene, b).sections[s]);
       require_hydrostatics_of_mesh(scene, b, body_of(scene, b).sections[s]);
       const auto& group = group_of(prepared, b);
-      PreparedSection one{b, s, table, row, group.bodies, {}, group.radiation, group.excitation};
+      PreparedSection one{
+          b, s, table, row, group.bodies, {}, group.radiation, group.excitation, origins(scene, meshes)};
       for (const int other : group.bodies)
         one.columns.push_back(6 * (std::find(meshes.begin(), meshes.end(), other) - meshes.begin()));
       prepared.sections.push_back(std::move(one));
     }
 }
 
-void add_section_signals(const Scene& scene, const Prepared& prepared, std::vector<Signal>& out) {
-  for (const PreparedSection& section : prepared.sections) add_one_section(scene, sectional_load(scene, section), out);
+void add_section_signals(const Scene& scene, const Prepared& prepared, const dynamics::Model& model,
+                         std::vector<Signal>& out) {
+  for (const PreparedSection& at : prepared.sections)
+    add_one_section(scene, std::make_shared<const SectionalLoad>(sectional_load(scene, prepared, model, at)), out);
+}
+
+namespace {
+
+/// The hull, and a section of it, where the body has them. Loads are about its centre of gravity.
+hydro::panels::HullBody hull_at(const Scene& scene, int body, const dynamics::Pose& pose) {
+  hydro::panels::HullBody out = hull_of(scene, body);
+  const Vector3d centre = out.reference_point;
+  // As it is placed it is as it is drawn, to the last digit: corners at the waterline stay there.
+  if (pose.centre == centre && pose.attitude.coeffs() == Eigen::Quaterniond::Identity().coeffs()) return out;
+  const Eigen::Matrix3d turn = pose.attitude.toRotationMatrix();
+  const auto moved = [&](const Vector3d& p) { return Vector3d(pose.centre + turn * (p - centre)); };
+  hydro::hydrostatics::TriangleMesh mesh{out.hull.source(), out.hull.vertices(), out.hull.triangles()};
+  for (Vector3d& v : mesh.vertices) v = moved(v);
+  out.hull = hydro::hydrostatics::Hull(std::move(mesh));
+  out.reference_point = pose.centre;
+  for (hydro::panels::HullSection& section : out.sections) {
+    section.at = moved(section.at);
+    section.normal = turn * section.normal;
+  }
+  return out;
+}
+
+/// Still water, weight and what is fastened, on the part, about the centre of gravity of the body along its axes.
+/// (D173)
+dynamics::Vector6 load_at_rest(const Scene& scene, const SectionalLoad& load, const dynamics::Still& still) {
+  const scene::Body& body = body_of(scene, load.at.body);
+  const Section& section = body.sections[load.at.section];
+  const dynamics::Pose& pose = still.state.pose[static_cast<std::size_t>(load.at.body)];
+  const Eigen::Matrix3d to_body = pose.attitude.toRotationMatrix().transpose();
+  dynamics::Vector6 out = load.fastened.at_rest(still);
+  if (body.hydrodynamics->hydrostatics || body.buoyancy) {
+    const hydro::panels::HullBody hull = hull_at(scene, load.at.body, pose);
+    const auto water = hydro::panels::still_water_load(hull, hull.sections[load.at.section], scene.water);
+    out.head<3>() += to_body * water.head<3>();
+    out.tail<3>() += to_body * water.tail<3>();
+  }
+  if (body.hydrodynamics->hydrostatics || body.weight) {
+    const Vector3d weight = -section.mass * scene.water.gravity * to_body.col(2);
+    out.head<3>() += weight;
+    out.tail<3>() += (section.centre_of_gravity - body.centre_of_gravity).cross(weight);
+  }
+  return out;
+}
+
+std::array<double, 3> three(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+
+}  // namespace
+
+std::vector<SectionAtRest> sections_at_rest(const Scene& scene, const Prepared& prepared,
+                                            const dynamics::frequency::SmallMotions& about) {
+  const dynamics::Still still(about.still, about.linear.multipliers);
+  std::vector<SectionAtRest> out;
+  for (const PreparedSection& at : prepared.sections) {
+    const Section& section = body_of(scene, at.body).sections[at.section];
+    const SectionalLoad load = sectional_load(scene, prepared, about.model, at);
+    const dynamics::Vector6 held = -load.shift * load_at_rest(scene, load, still);
+    out.push_back({name_of(scene, at), three(section.at), three(section.normal), {}});
+    std::copy(held.begin(), held.end(), out.back().load.begin());
+  }
+  return out;
+}
+
+const Section* section_of_signal(const Scene& scene, const std::string& signal) {
+  for (const scene::Body& body : scene.bodies)
+    for (const Section& section : body.sections)
+      for (const char* component : components_of_load)
+        if (signal == fmt::format("{}.{}.{}", body.name, section.name, component)) return &section;
+  return nullptr;
+}
+
+std::vector<Prepared> doubted(const Scene& scene, const Prepared& prepared) {
+  std::vector<Prepared> out;
+  if (prepared.sections.empty()) return out;
+  for (const std::shared_ptr<Kept>& kept : kept_doubted(scene, *prepared.kept)) out.push_back(prepare(scene, kept));
+  return out;
 }
 
 void require_no_sections(const Scene& scene) {

@@ -241,7 +241,7 @@ std::vector<Signal> signal_list(const scene::Scene& scene, const Prepared& prepa
   add_water(scene, nullptr, out);
   add_energies(model, out);
   add_line_signals(lines_as_placed(scene), out);
-  add_section_signals(scene, prepared, out);
+  add_section_signals(scene, prepared, model, out);
   for (Signal& s : out) s.value = {};
   return out;
 }

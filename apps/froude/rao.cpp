@@ -9,9 +9,11 @@
 #include "answers/picture.hpp"
 #include "answers/rao_check.hpp"
 #include "compile/compile.hpp"
+#include "compile/sections.hpp"
 #include "froude/progress.hpp"
 #include "froude/report.hpp"
 #include "froude/scene_result.hpp"
+#include "froude/sections_told.hpp"
 #include "froude/shares.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/base/types.hpp"
@@ -163,7 +165,9 @@ Report report_of(const scene::Scene& scene, const Responses& r, const Shares& sh
   out.say("{:<24} {}{:>12} {:<7} {:>10} {:>10}", "signal", several ? "heading [deg] " : "", "largest", "unit",
           "at T [s]", "phase [deg]");
   for (const auto& s : r.signals) signals.part(s.name, report_of(s, r, for_programs));
-  out.part("signals", std::move(signals)).part("error", error_of(r));
+  out.part("signals", std::move(signals));
+  if (!r.sections.empty()) out.part("at_rest", report_of(r.sections));
+  out.part("error", error_of(r));
   out.sentences("notes", "note: {}", r.notes).sentences("warnings", "{}", r.warnings());
   out.part("", shares.report());
   return out.say("wrote {}", fact("file", file.string()));
@@ -175,6 +179,7 @@ void rao(const RaoArguments& arguments, const Console& console) {
   Shares shares;
   const scene::Scene scene = scene::read(arguments.scene);
   require_asked(scene.rao.has_value(), scene, "RAOs", "rao = { periods = \"2 s .. 8 s, 61 values\" }");
+  if (!arguments.check.empty()) compile::require_no_sections(scene);
   const Path file = checked_output(arguments, ".rao.h5");
   shares.end("reading");
   HowToRespond how{.refine = arguments.refine};

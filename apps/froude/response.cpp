@@ -8,6 +8,7 @@
 #include "answers/response_check.hpp"
 #include "answers/response_spectra.hpp"
 #include "answers/second_order_spectra.hpp"
+#include "compile/sections.hpp"
 #include "froude/commands.hpp"
 #include "froude/density_unit.hpp"
 #include "froude/option.hpp"
@@ -16,6 +17,7 @@
 #include "froude/report.hpp"
 #include "froude/scene.hpp"
 #include "froude/scene_result.hpp"
+#include "froude/sections_told.hpp"
 #include "froude/sn_curve.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/base/parallel.hpp"
@@ -195,6 +197,7 @@ Report report_of(const scene::Scene& scene, const ResponseSpectra& r, const Seco
   }
   out.part("signals", std::move(statistics)).part("", std::move(moments)).part("largest", std::move(largest));
   if (asked.sn) out.part("damage", std::move(damage));
+  if (!r.sections.empty()) out.part("at_rest", report_of(r.sections));
   if (r.drag) out.part("drag", drag_of(*r.drag));
   if (second != nullptr) out.part("second_order", second_order_of(r, *second));
   return std::move(out.sentences("notes", "note: {}", notes).sentences("warnings", "{}", r.warnings));
@@ -515,6 +518,7 @@ void response(const ResponseArguments& arguments, const Console& console) {
   const Asked asked = asked_of(arguments);
   const scene::Scene scene = scene::read(arguments.scene);
   require_asked(scene.rao.has_value(), scene, "RAOs", "rao = { periods = \"3 s .. 25 s, 45 values\" }");
+  if (!arguments.check.empty()) compile::require_no_sections(scene);
   if (arguments.scatter) {
     const Scatter scatter = scatter_of(arguments);
     std::vector<const scene::Scene*> scenes;

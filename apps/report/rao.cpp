@@ -19,6 +19,26 @@ std::string unit_of(const Hdf5Reader& file, const std::string& dataset) {
   return unit == "1" ? "" : unit;
 }
 
+constexpr const char* sections_group = "section_at_rest";
+
+/// Sections of hulls whose loads are among the responses, with what they carry at rest.
+Json sections_in(const Hdf5Reader& file) {
+  const std::string group = std::string("/") + sections_group;
+  Json out = Json::array();
+  if (!file.has(group)) return out;
+  const std::vector<std::string> names = file.texts(group + "/section");
+  std::vector<Json> rest(names.size(), Json::object());
+  for (const std::string& name : file.children(group)) {
+    if (name == "section") continue;
+    const std::string dataset = group + "/" + name;
+    const auto values = file.numbers(dataset).values;
+    for (std::size_t i = 0; i < names.size(); ++i)
+      rest[i][name] = {{"unit", unit_of(file, dataset)}, {"value", values[i]}};
+  }
+  for (std::size_t i = 0; i < names.size(); ++i) out.push_back({{"name", names[i]}, {"at_rest", rest[i]}});
+  return out;
+}
+
 Json rao_in(const fs::path& path) {
   const Hdf5Reader file(path);
   Json out{{"kind", "rao"}};
@@ -28,7 +48,8 @@ Json rao_in(const fs::path& path) {
   out["heading"] = heading;
   Json signals = Json::array();
   for (const std::string& name : file.children("/")) {
-    if (name == "omega" || name == "heading" || name == "complex" || name == "provenance") continue;
+    if (name == "omega" || name == "heading" || name == "complex" || name == "provenance" || name == sections_group)
+      continue;
     const std::string dataset = "/" + name;
     const Array values = file.numbers(dataset);
     if (values.values.size() != 2 * omega.size() * heading.size())
@@ -41,6 +62,7 @@ Json rao_in(const fs::path& path) {
     signals.push_back(std::move(one));
   }
   out["signals"] = signals;
+  if (Json sections = sections_in(file); !sections.empty()) out["sections"] = std::move(sections);
   return out;
 }
 

@@ -190,6 +190,12 @@ Binding<Section> section() {
                   "of that part, (∫xy dm, ∫xz dm, ∫yz dm) from its centre of gravity")
                .or_default("(0, 0, 0) kg m^2", "body axes are mostly principal axes")
                .only_beside("inertia"))
+      .key(number("accept_error",
+                  "largest error by panels that its loads may have, of the peak of each, where the accuracy asked is "
+                  "missed")
+               .positive()
+               .optional(),
+           &Section::accepted_error)
       .exactly_one_of({"radii_of_gyration", "inertia"})
       .place(&Section::place)
       .then([](const Record& record, Section& out) {

@@ -17,6 +17,7 @@
 /// of any other element.
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -47,6 +48,14 @@ struct OnBody {
 
 namespace scene {
 
+/// Where an element acts on a body.
+struct Attack {
+  std::size_t element;  ///< which of its table
+  std::string name;
+  int body;
+  std::optional<Eigen::Vector3d> arm;  ///< from the centre of gravity, body axes, m; empty: that cannot be told
+};
+
 /// All elements of one table in one scene.
 class Elements {
  public:
@@ -54,6 +63,11 @@ class Elements {
   virtual std::string table() const = 0;  ///< "thruster" of [[thruster]]
   virtual std::size_t count() const = 0;
   virtual std::unique_ptr<const dynamics::ForceKind> force(const Site& site) const = 0;
+  /// The force of some of them: `counts` has one entry an element.
+  virtual std::unique_ptr<const dynamics::ForceKind> force_of(const Site& site,
+                                                              const std::vector<bool>& counts) const = 0;
+  /// Of all of them, on each of their bodies.
+  virtual std::vector<Attack> attacks(const Site& site) const = 0;
 };
 
 /// A table of the grammar whose entries are force elements.
@@ -92,6 +106,24 @@ class BodyElements final : public Elements {
   std::string table() const override { return table_; }
   std::size_t count() const override { return all_.size(); }
   std::unique_ptr<const dynamics::ForceKind> force(const Site& site) const override { return make_(all_, site); }
+  std::unique_ptr<const dynamics::ForceKind> force_of(const Site& site,
+                                                      const std::vector<bool>& counts) const override {
+    std::vector<OnBody<T>> some;
+    for (std::size_t i = 0; i < all_.size(); ++i)
+      if (counts[i]) some.push_back(all_[i]);
+    return make_(some, site);
+  }
+  /// At the member `at` of what the table says, a point from the body's origin, where it has one.
+  std::vector<Attack> attacks(const Site& site) const override {
+    std::vector<Attack> out;
+    for (std::size_t i = 0; i < all_.size(); ++i) {
+      std::optional<Eigen::Vector3d> arm;
+      if constexpr (requires(const T& value) { Eigen::Vector3d(value.at); })
+        arm = site.point(all_[i].body, all_[i].value.at).arm;
+      out.push_back({i, all_[i].name, all_[i].body, arm});
+    }
+    return out;
+  }
 
  private:
   std::string table_;

@@ -49,12 +49,28 @@ class CoordinateElements final : public Elements {
   std::string table() const override { return table_; }
   std::size_t count() const override { return all_.size(); }
   std::unique_ptr<const dynamics::ForceKind> force(const Site& site) const override {
+    return force_of(site, std::vector<bool>(all_.size(), true));
+  }
+  std::unique_ptr<const dynamics::ForceKind> force_of(const Site& site,
+                                                      const std::vector<bool>& counts) const override {
     std::vector<dynamics::OnCoordinate<Law>> out;
-    for (const auto& [index, law] : all_) {
+    for (std::size_t i = 0; i < all_.size(); ++i) {
+      if (!counts[i]) continue;
+      const auto& [index, law] = all_[i];
       const dynamics::Joint& joint = site.joints[index];
       out.push_back({{site.bodies, joint, static_cast<int>(index)}, law, joint.sign, joint.name});
     }
     return std::make_unique<dynamics::CoordinateForceKind<Law>>(std::move(out), words_);
+  }
+  std::vector<Attack> attacks(const Site& site) const override {
+    std::vector<Attack> out;
+    for (std::size_t i = 0; i < all_.size(); ++i) {
+      const dynamics::Joint& joint = site.joints[all_[i].first];
+      const dynamics::JointArms arms = dynamics::arms_at_rest(site.bodies, joint);
+      out.push_back({i, joint.name, joint.first, arms.first});
+      if (joint.second) out.push_back({i, joint.name, *joint.second, arms.second});
+    }
+    return out;
   }
 
  private:

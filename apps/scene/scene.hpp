@@ -151,6 +151,7 @@ struct Section {
   double mass;                                        ///< of that part, kg, >= 0
   Eigen::Vector3d centre_of_gravity;                  ///< of that part, from the body's origin, body axes, m
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  ///< of that part about its centre of gravity, kg m²
+  double accepted_error = 0;                          ///< by panels, of the peak of each of its loads
   Place place;
 };
 

@@ -64,6 +64,39 @@ def of_rao(rao: _froude.Rao) -> "xarray.Dataset":
         {**_about(rao, "rao"), "convention": "Re(amplitude e^{+i omega t}), phase against the crest at the origin"})
 
 
+_LOADS = ("force_x", "force_y", "force_z", "moment_x", "moment_y", "moment_z")
+
+
+def _load_of_sections(rao: _froude.Rao, load: str) -> tuple:
+    """A load along section, heading and omega; NaN where a section was not asked for it."""
+    values = np.full((len(rao.sections), len(rao.heading), len(rao.omega)), np.nan, dtype=complex)
+    for i, section in enumerate(rao.sections):
+        name = f"{section['name']}.{load}"
+        if name in rao:
+            values[i] = rao[name].reshape(values.shape[1:])
+    unit = "N/m" if load.startswith("force") else "N m/m"
+    return (("section", "heading", "omega"), values,
+            _attributes(unit, f"{load} on the part that a section describes, per metre of wave amplitude"))
+
+
+def of_section_loads(rao: _froude.Rao) -> "xarray.Dataset":
+    """Loads at sections of hulls in waves, along section, heading, rad, and omega, rad/s, and where bodies are still.
+
+    x, y and z are of a point of each section, m, along axes of its body from its origin.
+    """
+    if not rao.sections:
+        raise ValueError("these responses have no loads at sections: [[body.section]] tells where, and `of` which")
+    data = {load: _load_of_sections(rao, load) for load in _LOADS}
+    for k, load in enumerate(_LOADS):
+        data[f"{load}_at_rest"] = ("section", [s["at_rest"][k] for s in rao.sections], _attributes(
+            "N" if k < 3 else "N m", f"{load} on the part that a section describes, where the bodies are still"))
+    places = {axis: ("section", [s["at"][k] for s in rao.sections], _attributes("m", f"{axis} of a point of the section"))
+              for k, axis in enumerate("xyz")}
+    whole = of_rao(rao)
+    return _xarray().Dataset(data, {"section": [s["name"] for s in rao.sections], **places, "heading": whole.heading,
+                                    "omega": whole.omega}, whole.attrs)
+
+
 def of_field(surface: _froude.FreeSurface) -> "xarray.Dataset":
     """The free surface along y and x, m."""
     return _xarray().Dataset(

@@ -11,6 +11,7 @@
 #include "report/contents.hpp"
 #include "report/page.hpp"
 #include "report/spectra_of_run.hpp"
+#include "support/scratch.hpp"
 
 namespace html_report_test {
 namespace {
@@ -95,6 +96,22 @@ TEST(ReportSpectra, OfTooShortARecordSayWhy) {
 TEST(ReportOfASweep, SaysWarningOnce) {
   EXPECT_EQ(html::without_the_word("warning: x is off; warning: y, too"), "x is off; y, too");
   EXPECT_EQ(html::without_the_word("x is off"), "x is off");
+}
+
+// What a section carries at rest stands beside its loads in waves, and is no response itself.
+TEST(ReportResponses, HaveWhatSectionsCarryAtRest) {
+  const auto path = support::scratch_folder() / "sections.rao.h5";
+  froude::write_rao(path, {0.5, 1}, {0}, {{"barge.mid.force_z", "N/m", "shear", {{1, 0}, {0, 2}}}}, {}, {},
+                    {{"barge.mid", {5, 0, -1}, {1, 0, 0}, {1, 2, 3, 4, 5, 6}}});
+  const html::Json rao = html::rao_contents(path);
+  ASSERT_EQ(rao["signals"].size(), 1u);
+  ASSERT_EQ(rao["sections"].size(), 1u);
+  EXPECT_EQ(rao["sections"][0]["name"], "barge.mid");
+  const html::Json& rest = rao["sections"][0]["at_rest"];
+  EXPECT_EQ(rest["at_x"], html::Json({{"unit", "m"}, {"value", 5.0}}));
+  EXPECT_EQ(rest["normal_x"]["value"], 1.0);
+  EXPECT_EQ(rest["force_z"], html::Json({{"unit", "N"}, {"value", 3.0}}));
+  EXPECT_EQ(rest["moment_y"], html::Json({{"unit", "N m"}, {"value", 5.0}}));
 }
 
 TEST(ReportPage, LetsNoTextEndAnElement) {

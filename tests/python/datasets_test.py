@@ -30,6 +30,78 @@ def test_responses_have_both_dimensions(examples, scene):
     np.testing.assert_array_equal(data.omega, rao.omega)
 
 
+BARGE = """schema = 1
+[water]
+density = "1000 kg/m^3"
+gravity = "9.81 m/s^2"
+depth = "infinite"
+[[body]]
+name = "barge"
+mass = "80 t"
+centre_of_gravity = "(0, 0, -0.4) m"
+radii_of_gyration = "(0.6, 11.5, 11.5) m"
+[body.hydrodynamics]
+mesh = "barge.obj"
+frequencies = "0.6 rad/s .. 1.2 rad/s, 3 values"
+mesh_tolerance = 0.9
+excitation = true
+radiation = true
+hydrostatics = true
+[[body.section]]
+name = "mid"
+at = "(0, 0, 0) m"
+mass = "40 t"
+centre_of_gravity = "(8, 0, -0.4) m"
+radii_of_gyration = "(0.6, 5.8, 5.8) m"
+accept_error = 0.9
+[[body.section]]
+name = "fore"
+at = "(10, 0, 0) m"
+mass = "20 t"
+centre_of_gravity = "(15, 0, -0.4) m"
+radii_of_gyration = "(0.6, 3, 3) m"
+accept_error = 0.9
+[ask]
+rao = { omega = "0.6 rad/s .. 1.2 rad/s, 3 values", headings = ["180 deg"], of = ["barge.*.force_z", "barge.fore.moment_y"] }
+"""
+
+BOX = """v -20 -1 -1
+v 20 -1 -1
+v 20 1 -1
+v -20 1 -1
+v -20 -1 1
+v 20 -1 1
+v 20 1 1
+v -20 1 1
+f 1 4 3 2
+f 5 6 7 8
+f 1 2 6 5
+f 3 4 8 7
+f 2 3 7 6
+f 4 1 5 8
+"""
+
+
+def test_loads_at_sections_are_along_them_and_at_rest(tmp_path):
+    (tmp_path / "barge.obj").write_text(BOX)
+    rao = froude.rao(froude.read_text(BARGE, folder=tmp_path))
+    data = rao.section_loads()
+    assert data.force_z.dims == ("section", "heading", "omega") and data.force_z.attrs["units"] == "N/m"
+    assert list(data.section.values) == ["barge.mid", "barge.fore"]
+    np.testing.assert_array_equal(data.x, [0, 10])
+    np.testing.assert_array_equal(data.force_z[1, 0], rao["barge.fore.force_z"])
+    assert np.all(np.isnan(data.moment_y[0])) and data.moment_y.attrs["units"] == "N m/m"  # it was not asked for
+    # Half of the mass about x = 8 m, not 10 m: what is missing there is a couple, by hand, less water on the bow.
+    np.testing.assert_allclose(data.moment_y_at_rest[0], 40e3 * 9.81 * 2 - 0.5 * 9810 * 2 * 2 / 3, rtol=1e-9)
+    assert data.moment_y_at_rest.attrs["units"] == "N m"
+    assert 0 < rao.error("barge.mid.force_z") < 0.9
+
+
+def test_loads_at_sections_need_sections(examples):
+    with pytest.raises(ValueError, match="body.section"):
+        froude.rao(examples / "moored.toml").section_loads()
+
+
 PILE = """schema = 1
 [water]
 density = "1025 kg/m^3"

@@ -132,6 +132,16 @@ struct Run {
   void write(const std::filesystem::path& path) const;
 };
 
+/// A section of a hull whose loads are among the signals of responses, and what it carries where the bodies are still.
+struct SectionAtRest {
+  std::string name;  ///< "barge.midship", whose signals are called barge.midship.force_x … moment_z
+  std::array<double, 3> at,
+      normal;  ///< a point of the plane and its normal, from the origin of the body along its axes
+  /// By weight, still water and what is fastened to the part, on the part that is described: N and, about `at`, N m,
+  /// along axes of the body.
+  std::array<double, 6> load;
+};
+
 /// Signals per metre of wave amplitude, at the frequencies and headings that the scene asks for.
 struct Responses {
   std::vector<double> omega;           ///< rad/s
@@ -140,6 +150,7 @@ struct Responses {
   std::vector<std::string> notes;      ///< what had to be decided, and what is left out
   ErrorEstimate error = {};            ///< of each value, over the largest of its signal
   Provenance provenance = {};          ///< without the notes
+  std::vector<SectionAtRest> sections = {};
 
   /// "accuracy asked 0.01, estimated 0.006 of the peak (m3.pitch), by the coefficients"; empty where they have no error
   std::string accuracy() const;
@@ -301,11 +312,12 @@ void write_run(const std::filesystem::path& path, const std::vector<double>& tim
                const Provenance& provenance, const ErrorEstimate& error = {});
 
 /// Response amplitude operators: dimensions `omega` in rad/s and `complex`. `heading` in rad: a scalar where there is
-/// one, the first dimension where there are several. Errors as write_run() has them.
+/// one, the first dimension where there are several. Errors as write_run() has them. Sections are the group
+/// `section_at_rest` with the dimension `section`, where there are any.
 /// \throws hydro::InputError if the file cannot be written
 void write_rao(const std::filesystem::path& path, const std::vector<double>& omega, const std::vector<double>& heading,
-               const std::vector<ComplexSignal>& signals, const Provenance& provenance,
-               const ErrorEstimate& error = {});
+               const std::vector<ComplexSignal>& signals, const Provenance& provenance, const ErrorEstimate& error = {},
+               const std::vector<SectionAtRest>& sections = {});
 
 /// Dimensions `mode` (counted from 1), `motion` and `complex`. \throws hydro::InputError if the file cannot be written
 void write_modes(const std::filesystem::path& path, const Modes& modes, const Provenance& provenance);

@@ -7,6 +7,7 @@
 #include <mutex>
 
 #include "extrapolate.hpp"
+#include "parts.hpp"
 #include "potential/modes.hpp"
 #include "potential/solver_request.hpp"
 #include "refine.hpp"
@@ -106,11 +107,15 @@ class Ladder {
   }
   Extrapolated step(std::size_t frequency) const;
   Extrapolated step(Limit limit) const;
-  /// Divided by the scales at their frequencies.
-  std::vector<Extrapolated> corrections() const;
+  /// Divided by the scales at their frequencies; `of_step`: how much of the step to the limit is taken.
+  std::vector<Extrapolated> corrections(double of_step = 1) const;
+  /// Results with these corrections between all samples, or with a share of those between every second one.
+  std::vector<OneFrequency> results(const std::vector<Extrapolated>& corrections, double share_of_second = 0) const;
   /// The value of the first mesh with the correction that these weights make of those.
   Extrapolated corrected(std::size_t frequency, const std::vector<Extrapolated>& corrections,
                          const std::vector<double>& weights) const;
+  /// Work::doubted, of hulls with sections.
+  std::vector<std::vector<OneFrequency>> doubted(const Work& w, const std::vector<Extrapolated>& correction) const;
   void find_scales();
   std::vector<double> sample_omega() const;
   const Level& first() const { return levels_.front(); }
@@ -195,10 +200,10 @@ Extrapolated Ladder::step(Limit limit) const {
 }
 
 /// What is added to the first mesh, at the samples.
-std::vector<Extrapolated> Ladder::corrections() const {
+std::vector<Extrapolated> Ladder::corrections(double of_step) const {
   std::vector<Extrapolated> out;
   for (const std::size_t i : samples_) {
-    out.push_back(sum(sum(*levels_.back().at[i], -1, *first().at[i]), 1, step(i)));
+    out.push_back(sum(sum(*levels_.back().at[i], -1, *first().at[i]), of_step, step(i)));
     for (std::size_t m = 0; !scale_.empty() && m < out.back().size(); ++m)
       out.back()[m] = out.back()[m].cwiseQuotient(scale_[i][m]).eval();
   }
@@ -232,6 +237,32 @@ Extrapolated Ladder::corrected(std::size_t frequency, const std::vector<Extrapol
   return sum(*first().at[frequency], 1, added);
 }
 
+/// The weights of a cubic through every second of the nodes and the last.
+std::vector<double> weights_of_every_second(const std::vector<double>& nodes, double x) {
+  std::vector<double> kept, out(nodes.size());
+  std::vector<std::size_t> place;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    if (i % 2 != 0 && i + 1 != nodes.size()) continue;
+    kept.push_back(nodes[i]);
+    place.push_back(i);
+  }
+  const std::vector<double> weights = cubic_weights(kept, x);
+  for (std::size_t i = 0; i < kept.size(); ++i) out[place[i]] = weights[i];
+  return out;
+}
+
+std::vector<OneFrequency> Ladder::results(const std::vector<Extrapolated>& corrections, double share_of_second) const {
+  const std::vector<double> nodes = sample_omega();
+  std::vector<Extrapolated> value;
+  for (std::size_t i = 0; i < omega_.size(); ++i) {
+    std::vector<double> weights = cubic_weights(nodes, omega_[i]);
+    const std::vector<double> second = weights_of_every_second(nodes, omega_[i]);
+    for (std::size_t n = 0; n < weights.size(); ++n) weights[n] += share_of_second * (second[n] - weights[n]);
+    value.push_back(corrected(i, corrections, weights));
+  }
+  return answers(value);
+}
+
 /// Of all frequencies, several at a time.
 std::vector<OneFrequency> Ladder::answers(const std::vector<Extrapolated>& of_each) const {
   std::vector<OneFrequency> out(of_each.size());
@@ -253,10 +284,7 @@ Work Ladder::work(Estimate& e) const {
   Work w;
   const std::vector<Extrapolated> correction = corrections();
   const std::vector<double> nodes = sample_omega();
-  std::vector<Extrapolated> value;
-  for (std::size_t i = 0; i < omega_.size(); ++i)
-    value.push_back(corrected(i, correction, cubic_weights(nodes, omega_[i])));
-  w.results = answers(value);
+  w.results = results(correction);
   w.check = self_check(w.results, first().mesh->length());
   const Sizes size = sizes(w.results, w.check.length);
   e = estimate(w, correction, size);
@@ -269,8 +297,18 @@ Work Ladder::work(Estimate& e) const {
   w.check.truncation = e.truncation;
   w.check.refined_omega = nodes;
   for (const Level& level : levels_) w.check.extrapolated_from.push_back(panels_of(level));
+  if (w.results.front().A_parts.rows() > 0) w.doubted = doubted(w, correction);
   first().mesh->describe(w.check);
   return w;
+}
+
+std::vector<std::vector<OneFrequency>> Ladder::doubted(const Work& w,
+                                                       const std::vector<Extrapolated>& correction) const {
+  std::vector<OneFrequency> divided;
+  for (std::size_t i = 0; i < omega_.size(); ++i)
+    divided.push_back(with_division_doubted(w.results[i], answer(i, *first().at[i])));
+  return {results(corrections(1 - doubtful_share_of_parts(levels_.size()))),
+          results(correction, samples_all() ? 0 : of_omitted), std::move(divided)};
 }
 
 Estimate Ladder::estimate(const Work& w, const std::vector<Extrapolated>& correction, const Sizes& size) const {

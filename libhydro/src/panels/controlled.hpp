@@ -17,6 +17,9 @@ struct Estimate {
 /// What a solution is filled from.
 struct Work {
   std::vector<OneFrequency> results;  ///< of each frequency
+  /// With sections, results that are as far off as is told, (G28): by panels, by interpolation between frequencies, and
+  /// by the division of panels at sections.
+  std::vector<std::vector<OneFrequency>> doubted = {};
   Eigen::MatrixXd A_inf;
   std::optional<Eigen::MatrixXd> A_zero;  ///< deep water only
   SelfCheck check;

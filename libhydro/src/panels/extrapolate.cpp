@@ -69,6 +69,8 @@ MatrixXd step_to_the_limit(const std::vector<MatrixXd>& all) {
 
 double doubtful_share(std::size_t meshes) { return meshes > 2 ? 0.3 : 0.6; }
 
+double doubtful_share_of_parts(std::size_t meshes) { return meshes > 2 ? 0.5 : 1; }
+
 std::vector<Extrapolated> Solver::scales(const std::vector<const Extrapolated*>&) const { return {}; }
 
 std::vector<Extrapolated> scales_of_waves(const std::vector<const Extrapolated*>& solved) {

@@ -17,6 +17,8 @@ Extrapolated step_to_the_limit(const std::vector<const Extrapolated*>& coarse_to
 Eigen::MatrixXd step_to_the_limit(const std::vector<Eigen::MatrixXd>& coarse_to_fine);
 /// The error that is left, as a share of the step.
 double doubtful_share(std::size_t meshes);
+/// The same for loads on parts, which fall less evenly, (G28).
+double doubtful_share_of_parts(std::size_t meshes);
 
 /// Of A, B, B_far, X, X_far, and perhaps A, B and X of parts, at rising frequencies: what damping and excitation have
 /// been at most so far, √(B_ii B_jj) and the row of X; for A ones. (G17)

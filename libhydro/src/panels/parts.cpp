@@ -75,6 +75,25 @@ void for_all_pieces(const PanelMesh& mesh, const std::vector<HullBody>& bodies, 
     }
 }
 
+/// The largest extent along the normal of what the plane divides; zero where it goes along edges of panels.
+double extent_of_divided(const PanelMesh& mesh, const std::vector<HullBody>& bodies, const Cut& cut) {
+  constexpr double rounding = 1e-9;  // of the hull's diagonal
+  const double near = rounding * bodies[static_cast<std::size_t>(cut.body)].hull.diagonal();
+  double out = 0;
+  for (std::size_t s = 0; s < mesh.images.size(); ++s)
+    for (std::size_t i = 0; i < mesh.hull.size(); ++i) {
+      if (mesh.body_of[i][s] != cut.body) continue;
+      double low = 0, high = 0;
+      for (const Vector3d& p : in_image(mesh.hull[i], mesh.images[s])) {
+        const double height = cut.section.normal.dot(p - cut.section.at);
+        low = std::min(low, height);
+        high = std::max(high, height);
+      }
+      if (low < -near && high > near) out = std::max(out, high - low);
+    }
+  return out;
+}
+
 /// n and (x − about) × n.
 Generalised generalised(const Vector3d& normal, const Vector3d& at, const Vector3d& about) {
   Generalised out;
@@ -130,16 +149,51 @@ Matrix below_bodies(const Matrix& rows, Index modes, Index columns) {
 
 }  // namespace
 
+namespace {
+
+using LoadRows = Eigen::Matrix<double, 6, Eigen::Dynamic>;
+
+LoadRows load_rows(const PanelMesh& mesh, const std::vector<HullBody>& bodies, const Cut& cut) {
+  LoadRows out = LoadRows::Zero(6, mesh.hull_panels());
+  const Vector3d about = bodies[static_cast<std::size_t>(cut.body)].reference_point;
+  for_all_pieces(mesh, bodies, cut, [&](Index row, const Corners& figure) {
+    integrate(figure,
+              [&](const Vector3d& at, const Vector3d& normal) { out.col(row) += generalised(normal, at, about); });
+  });
+  return out;
+}
+
+/// (G30): the second difference of the rows, over the extent of the panels that the plane divides.
+LoadRows bend_of_rows(const PanelMesh& mesh, const std::vector<HullBody>& bodies, const Cut& cut) {
+  const double h = extent_of_divided(mesh, bodies, cut);
+  if (h == 0) return LoadRows::Zero(6, mesh.hull_panels());
+  HullSection ahead = cut.section, behind = cut.section;
+  ahead.at += h * ahead.normal;
+  behind.at -= h * behind.normal;
+  return load_rows(mesh, bodies, {cut.body, ahead}) - 2 * load_rows(mesh, bodies, cut) +
+         load_rows(mesh, bodies, {cut.body, behind});
+}
+
+}  // namespace
+
 MatrixXd load_rows_of_parts(const PanelMesh& mesh, const std::vector<HullBody>& bodies) {
   const std::vector<Cut> cuts = cuts_of(bodies);
-  MatrixXd out = MatrixXd::Zero(6 * static_cast<Index>(cuts.size()), mesh.hull_panels());
-  for (std::size_t c = 0; c < cuts.size(); ++c)
-    for_all_pieces(mesh, bodies, cuts[c], [&](Index row, const Corners& figure) {
-      integrate(figure, [&](const Vector3d& at, const Vector3d& normal) {
-        const Vector3d about = bodies[static_cast<std::size_t>(cuts[c].body)].reference_point;
-        out.block<6, 1>(6 * static_cast<Index>(c), row) += generalised(normal, at, about);
-      });
-    });
+  const auto half = 6 * static_cast<Index>(cuts.size());
+  MatrixXd out(2 * half, mesh.hull_panels());
+  for (std::size_t c = 0; c < cuts.size(); ++c) {
+    out.middleRows<6>(6 * static_cast<Index>(c)) = load_rows(mesh, bodies, cuts[c]);
+    out.middleRows<6>(half + 6 * static_cast<Index>(c)) = bend_of_rows(mesh, bodies, cuts[c]);
+  }
+  return out;
+}
+
+OneFrequency with_division_doubted(const OneFrequency& result, const OneFrequency& coarsest) {
+  constexpr double worst_of_cuts = 0.07;  // (G30)
+  OneFrequency out = result;
+  const Index half = out.A_parts.rows() / 2;
+  out.A_parts.topRows(half) += worst_of_cuts * coarsest.A_parts.bottomRows(half);
+  out.B_parts.topRows(half) += worst_of_cuts * coarsest.B_parts.bottomRows(half);
+  out.X_parts.topRows(half) += worst_of_cuts * coarsest.X_parts.bottomRows(half);
   return out;
 }
 
@@ -167,16 +221,28 @@ Coefficients loads_on_parts(const PanelMesh& mesh, const std::vector<HullBody>& 
   }
   for (std::size_t w = 0; w < results.size(); ++w) {
     const OneFrequency& one = results[w];
-    out.A.push_back(below_bodies<MatrixXd>(one.A_parts + share * (whole.A[w] - one.A), modes, all));
-    out.B.push_back(below_bodies<MatrixXd>(one.B_parts + share * (whole.B[w] - one.B), modes, all));
+    out.A.push_back(below_bodies<MatrixXd>(one.A_parts.topRows(rows) + share * (whole.A[w] - one.A), modes, all));
+    out.B.push_back(below_bodies<MatrixXd>(one.B_parts.topRows(rows) + share * (whole.B[w] - one.B), modes, all));
   }
   for (Index h = 0; h < static_cast<Index>(out.heading.size()); ++h) {
     MatrixXcd X(rows, static_cast<Index>(results.size()));
-    for (std::size_t w = 0; w < results.size(); ++w) X.col(static_cast<Index>(w)) = results[w].X_parts.col(h);
+    for (std::size_t w = 0; w < results.size(); ++w)
+      X.col(static_cast<Index>(w)) = results[w].X_parts.topRows(rows).col(h);
     out.X.push_back(below_bodies<MatrixXcd>(X, modes, X.cols()));
   }
   out.C = below_bodies<MatrixXd>(C, modes, all);
   out.validate();
+  return out;
+}
+
+Generalised still_water_load(const HullBody& body, const HullSection& section, const Water& water) {
+  const std::vector<HullBody> alone{body};
+  Generalised out = Generalised::Zero();
+  for_all_pieces(panel_mesh(alone, water.depth, false), alone, {0, section}, [&](Index, const Corners& figure) {
+    integrate(figure, [&](const Vector3d& at, const Vector3d& normal) {
+      out += water.density * water.gravity * at.z() * generalised(normal, at, body.reference_point);
+    });
+  });
   return out;
 }
 

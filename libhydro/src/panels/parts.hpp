@@ -4,9 +4,14 @@
 
 namespace hydro::panels {
 
-/// W, (6 sections, all panels): load rows ∬ n dS, ∬ (x − x_ref) × n dS over what of each panel in each image is on the
-/// part. Sections follow each other body by body; a panel that a plane cuts is divided at it.
+/// W, (12 sections, all panels): load rows ∬ n dS, ∬ (x − x_ref) × n dS over what of each panel in each image is on the
+/// part. Sections follow each other body by body; a panel that a plane cuts is divided at it. Then as many rows that
+/// tell how far off that division may be, (G30).
 Eigen::MatrixXd load_rows_of_parts(const PanelMesh& mesh, const std::vector<HullBody>& bodies);
+
+/// A result whose loads on parts are as far off as the division of panels may leave them, (G30). `coarsest`: of the
+/// first of the meshes that the result is extrapolated from.
+OneFrequency with_division_doubted(const OneFrequency& result, const OneFrequency& coarsest);
 
 /// Solution::parts of answers at the frequencies of `whole`, which is what was made of them. `mesh`: of `bodies`, of
 /// any fineness.

@@ -173,6 +173,23 @@ double fill(const Work& w, const std::vector<double>& omega, const std::vector<d
   return changed;
 }
 
+/// What is as far off as the estimate has it, (G28); `whole` is what comes out.
+std::vector<Solution::Doubted> doubted_values(const PanelMesh& mesh, const std::vector<HullBody>& bodies,
+                                              const Work& work, const Coefficients& whole) {
+  std::vector<Solution::Doubted> out;
+  for (const std::vector<OneFrequency>& results : work.doubted) {
+    Work of = work;
+    of.results = results;
+    Coefficients c = whole;
+    c.A.clear();
+    c.B.clear();
+    fill(of, whole.omega, whole.heading, c);
+    Coefficients parts = loads_on_parts(mesh, bodies, results, c);
+    out.push_back({std::move(c), std::move(parts)});
+  }
+  return out;
+}
+
 /// By panels of one size: the mesh's own, whose answers are then `known`, or the coarsest by which an error is
 /// controlled.
 potential::ChosenFrequencies where_needed(const Discretisation& given, const std::vector<double>& first,
@@ -252,8 +269,11 @@ Solution solve(const std::vector<HullBody>& bodies, const Water& water, const st
   if (!controlled) require_credible(s.check);
   c.source = fmt::format("panels: {} on {} {}", s.check.panels, bodies.size(), bodies.size() == 1 ? "hull" : "hulls");
   s.check.passivity = fill(w, chosen.omega, heading, c);
-  if (std::any_of(bodies.begin(), bodies.end(), [](const HullBody& body) { return !body.sections.empty(); }))
-    s.parts = loads_on_parts(panel_mesh(bodies, water.depth, false), bodies, w.results, c);
+  if (std::any_of(bodies.begin(), bodies.end(), [](const HullBody& body) { return !body.sections.empty(); })) {
+    const PanelMesh mesh = panel_mesh(bodies, water.depth, false);
+    s.parts = loads_on_parts(mesh, bodies, w.results, c);
+    s.doubted = doubted_values(mesh, bodies, w, c);
+  }
   add_notes(s.check, c);
   if (!std::isnan(s.check.estimate)) note_flat_faces(bodies, c);
   if (options.frequency_tolerance) {

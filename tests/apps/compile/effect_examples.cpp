@@ -355,7 +355,7 @@ Example of_responses_alone() {
       "sections", "",
       "[body.hydrodynamics]\nmesh = \"inside_out.obj\"\nreverse = true\nfrequencies = \"0.8 rad/s .. 1.4 rad/s, "
       "3 values\"\nhydrostatics = true\n[[body.section]]\nname = \"mid\"\nat = \"(0, 0, 0) m\"\nmass = \"4544 "
-      "kg\"\ncentre_of_gravity = \"(1, 0, 1.31) m\"\nradii_of_gyration = \"(1, 1, 1) m\"\n",
+      "kg\"\ncentre_of_gravity = \"(1, 0, 1.31) m\"\nradii_of_gyration = \"(1, 1, 1) m\"\naccept_error = 9\n",
       {});
 }
 

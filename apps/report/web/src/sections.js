@@ -1,5 +1,6 @@
 // The parts of the report, by what each result is.
 import { h, folded } from './dom.js';
+import { sectionFigures, sectionTable } from './cutview.js';
 import { extremesTable, fieldFigures, meansTable } from './fieldview.js';
 import { fitFigures, fitParts } from './fitview.js';
 import { modesTable, peaksTable, raoFigures, tableFigures } from './frequency.js';
@@ -37,6 +38,13 @@ const SECTIONS = {
       'Peaks',
       following(() => peaksTable(rao)),
     ),
+    rao.sections
+      ? part(
+          'Loads at sections of hulls',
+          following(() => sectionTable(rao)),
+          grid(sectionFigures(rao)),
+        )
+      : null,
   ],
   modes: (modes) => [part('Free motions', modesTable(modes))],
   field: (field) => [

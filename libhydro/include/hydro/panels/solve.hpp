@@ -94,6 +94,14 @@ struct Solution {
   /// A, B, C and X are loads on the part by motions of the bodies, about the body's reference point; all other entries
   /// are zero. C: the hydrostatic pressure alone, along axes that turn with the body (G25). Empty without sections.
   std::optional<potential::Coefficients> parts = {};
+  /// Values that are as far off as may be (G28), (G30), of bodies and of their parts.
+  struct Doubted {
+    potential::Coefficients coefficients, parts;
+  };
+  /// With sections and a tolerance, three: by the size of panels, by refining at some frequencies only, and by the
+  /// division of panels at sections. What an answer that is made of both `coefficients` and `parts` changes with each,
+  /// added up, estimates its error.
+  std::vector<Doubted> doubted = {};
 };
 
 /// What a solution will need, told before it is computed; with a tolerance, its first two meshes.
@@ -127,6 +135,10 @@ double difference(const potential::Coefficients& c, const potential::Coefficient
 
 /// \throws InputError unless the plane cuts or touches the hull, and its normal is of unit length
 void check_section(const HullBody& body, const HullSection& section);
+
+/// Force and moment of still water on the part into which the section's normal points, N and N m, global axes, the
+/// moment about the body's reference point: exact over flat faces. (G29) \throws InputError as solve()
+Eigen::Matrix<double, 6, 1> still_water_load(const HullBody& body, const HullSection& section, const Water& water);
 
 /// \throws InputError as solve()
 Cost cost(const std::vector<HullBody>& bodies, const Water& water, const std::vector<double>& omega,
