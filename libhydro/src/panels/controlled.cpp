@@ -120,6 +120,7 @@ class Ladder {
   }
   std::vector<OneFrequency> answers(const std::vector<Extrapolated>& of_each) const;
   std::optional<MatrixXd> limit(Limit which, double omega, const Sizes& size, double& doubtful) const;
+  Eigen::VectorXd own_errors(const Work& w) const;
   Estimate estimate(const Work& w, const std::vector<Extrapolated>& correction, const Sizes& size) const;
   double interpolation_error(const Work& w, const std::vector<Extrapolated>& correction, const Sizes& size) const;
   std::vector<double> roughness() const;
@@ -260,6 +261,7 @@ Work Ladder::work(Estimate& e) const {
   w.check = self_check(w.results, first().mesh->length());
   const Sizes size = sizes(w.results, w.check.length);
   e = estimate(w, correction, size);
+  w.own_error = own_errors(w);
   double doubtful = 0;
   w.A_inf = *limit(&Level::inf, infinite, size, doubtful);
   w.A_zero = limit(&Level::zero, 0, size, doubtful);
@@ -271,6 +273,13 @@ Work Ladder::work(Estimate& e) const {
   for (const Level& level : levels_) w.check.extrapolated_from.push_back(panels_of(level));
   first().mesh->describe(w.check);
   return w;
+}
+
+Eigen::VectorXd Ladder::own_errors(const Work& w) const {
+  OwnErrors own(w.results, w.check.length);
+  for (const std::size_t i : samples_)
+    own.take(sum(w.results[i], -1, answer(i, *levels_.back().at[i])), doubtful_share(levels_.size()));
+  return own.of_mode;
 }
 
 Estimate Ladder::estimate(const Work& w, const std::vector<Extrapolated>& correction, const Sizes& size) const {
