@@ -162,7 +162,8 @@ std::optional<SelfOverlap> face_inside(const std::vector<Facet>& facets, std::si
 void add_lids(const TriangleMesh& mesh, const std::vector<std::array<int, 2>>& open_edges, std::vector<Facet>& out) {
   const auto vertex = [&](int v) { return mesh.vertices[static_cast<std::size_t>(v)]; };
   std::map<int, int> parent;
-  for (const auto& [a, b] : open_edges) parent[a] = a, parent[b] = b;
+  for (const auto& edge : open_edges)
+    for (const int v : edge) parent[v] = v;
   const auto root = [&](int v) {
     while (parent[v] != v) v = parent[v] = parent[parent[v]];
     return v;
