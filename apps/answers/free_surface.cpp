@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "answers/answers.hpp"
 #include "answers/provenance.hpp"
@@ -12,6 +13,7 @@
 #include "compile/hulls.hpp"
 #include "froude/hull_pressures.hpp"
 #include "hydro/base/error.hpp"
+#include "hydro/waves/dispersion.hpp"
 
 namespace froude {
 namespace {
@@ -118,6 +120,8 @@ void require_accuracy(const scene::Scene& scene, const Estimated& of) {
                    scene.field->place, fmt::format("{}, or write {} = {:.2g}", of.remedy, of.key, 1.1 * of.estimate));
 }
 
+constexpr const char* drift_remedy = "give finer meshes, or cylinders a smaller `tolerance`";
+
 /// Pressures of the field under the names of these bodies.
 std::shared_ptr<const HullPressures> pressures(const scene::Scene& scene, const std::vector<int>& bodies,
                                                const WaveField& field) {
@@ -129,13 +133,43 @@ std::shared_ptr<const HullPressures> pressures(const scene::Scene& scene, const 
   return out;
 }
 
-/// Of the field under the names of these bodies.
+/// What bodies take from the waves is what damps them (P51): by how much it is missed, as a force, over the mean drift
+/// or, where that is less, the momentum of the waves that they send out.
+double error_by_power(const scene::Scene& scene, const hydro::potential::MeanDrift& drift, double damped) {
+  const double omega = scene.field->omega;
+  const double phase_velocity = omega / hydro::waves::wavenumber(omega, scene.water);
+  const double size = std::max(drift.force.norm() * phase_velocity, drift.scattered);
+  return size > 0 ? std::abs(drift.taken - damped) / size : 0;
+}
+
+void add_drift(const scene::Scene& scene, const WaveField& field, const std::optional<double>& damped,
+               FreeSurface& out) {
+  const hydro::potential::MeanDrift drift = mean_drift(field.far, scene.field->omega, scene.water);
+  out.drift_x = drift.force.x();
+  out.drift_y = drift.force.y();
+  out.power_taken = drift.taken;
+  out.power_sent_out = drift.scattered;
+  if (!damped) {
+    out.notes.emplace_back(
+        "the error of the mean drift is not estimated: what bodies take from the waves is not known");
+    return;
+  }
+  out.body_drift_error = error_by_power(scene, drift, *damped);
+  require_accuracy(scene, {"mean drift", out.body_drift_error, scene.field->accepted_drift_error,
+                           "accepted_drift_error", drift_remedy});
+  out.notes.push_back(
+      fmt::format("mean drift and power are known to {:.2g} of the drift: what damps the bodies takes "
+                  "{:.3g} W/m^2, and they take {:.3g} from the waves",
+                  out.body_drift_error, *damped, drift.taken));
+}
+
+/// Of the field under the names of these bodies; the error is added to that of all together.
 void add_body_drift(const scene::Scene& scene, const std::vector<int>& bodies, const WaveField& field,
                     FreeSurface& out) {
   if (!scene.field->body_drift) return;
-  out.body_drift_error = field.on_bodies->estimate;
+  out.body_drift_error += field.on_bodies->estimate;
   require_accuracy(scene, {"mean drift of bodies", out.body_drift_error, scene.field->accepted_drift_error,
-                           "accepted_drift_error", "give finer meshes, or cylinders a smaller `tolerance`"});
+                           "accepted_drift_error", drift_remedy});
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     const auto load = field.on_bodies->load.row(static_cast<Index>(b));
     out.body_drift.push_back({scene.bodies[static_cast<std::size_t>(bodies[b])].name, load.x(), load.y(), load.z()});
@@ -161,27 +195,25 @@ FreeSurface free_surface(const scene::Scene& scene, const std::shared_ptr<compil
                   .provenance = provenance_of(scene)};
   FieldQuestion question{asked.omega,    asked.heading,  Eigen::VectorXcd::Zero(6 * static_cast<Index>(bodies.size())),
                          grid_of(asked), asked.pressure, asked.body_drift};
+  std::optional<double> damped = 0.0;
   if (!asked.held) {
     const compile::Prepared prepared = compile::prepare(at_its_frequency(scene), kept);
     out.notes = prepared.notes;
-    question.motion = about_origins(
-        scene, bodies, motions_in_wave(scene, prepared, asked.omega, asked.heading, asked.place, out.notes));
+    const MotionInWave moved = motions_in_wave(scene, prepared, asked.omega, asked.heading, asked.place, out.notes);
+    question.motion = about_origins(scene, bodies, moved.xi);
+    damped = moved.damped;
   }
   const WaveField field = makers.meshes.empty() ? compile::field_of_cylinders(scene, bodies, question)
                                                 : compile::field_of_hulls(scene, bodies, question);
   require_accuracy(scene, {"elevation", field.estimate, asked.accepted_error, "accepted_error",
                            "keep the grid off the sides of bodies, where it is worst"});
   out.pressure = pressures(scene, bodies, field);
+  add_drift(scene, field, damped, out);
   add_body_drift(scene, bodies, field, out);
   out.estimate = field.estimate;
   out.angle = field.far.angle;
   out.far_scattered.assign(field.far.scattered.begin(), field.far.scattered.end());
   out.far_radiated.assign(field.far.radiated.begin(), field.far.radiated.end());
-  const hydro::potential::MeanDrift drift = mean_drift(field.far, asked.omega, scene.water);
-  out.drift_x = drift.force.x();
-  out.drift_y = drift.force.y();
-  out.power_taken = drift.taken;
-  out.power_sent_out = drift.scattered;
   out.signals = {part("elevation", "free surface", field.total(), field.known),
                  part("incident", "free surface without bodies", field.incident, field.known),
                  part("scattered", "what bodies held still add to the free surface", field.scattered, field.known),

@@ -306,8 +306,24 @@ Responses respond(const scene::Scene& scene, const compile::Prepared& prepared, 
   return out;
 }
 
-Eigen::VectorXcd motions_in_wave(const scene::Scene& scene, const compile::Prepared& prepared, double omega,
-                                 double heading, const scene::Place& place, std::vector<std::string>& notes) {
+namespace {
+
+/// Half the real part of what velocities and the loads that they meet make: dampers, and stiffness that is not
+/// symmetric.
+double power_of_loads(const SmallMotions& about, const Eigen::VectorXcd& xi, double omega) {
+  const Eigen::VectorXcd v = std::complex<double>(0, omega) * xi;
+  return v.dot(about.linear.stiffness * xi + about.linear.damping * v).real() / 2;
+}
+
+bool is_balanced_by_dampers(const scene::Scene& scene, const compile::Prepared& prepared) {
+  return scene.members.empty() &&
+         std::all_of(prepared.groups.begin(), prepared.groups.end(), [](const auto& group) { return group.radiation; });
+}
+
+}  // namespace
+
+MotionInWave motions_in_wave(const scene::Scene& scene, const compile::Prepared& prepared, double omega, double heading,
+                             const scene::Place& place, std::vector<std::string>& notes) {
   scene::Scene one = scene;
   if (!one.rao) one.rao.emplace();
   one.rao->omega = {omega};
@@ -321,7 +337,10 @@ Eigen::VectorXcd motions_in_wave(const scene::Scene& scene, const compile::Prepa
     notes.push_back(effect);
   const dynamics::frequency::RaoOptions options{.threads = 1,
                                                 .drag = drag_of_rao(one, prepared, about, one.rao->omega, notes)};
-  return response_amplitudes(about, prepared.groups, one.rao->omega, one.rao->headings, options).xi.front().col(0);
+  MotionInWave out{
+      response_amplitudes(about, prepared.groups, one.rao->omega, one.rao->headings, options).xi.front().col(0), {}};
+  if (is_balanced_by_dampers(scene, prepared)) out.damped = power_of_loads(about, out.xi, omega);
+  return out;
 }
 
 Responses over_wave_slope(Responses responses, const hydro::Water& water) {

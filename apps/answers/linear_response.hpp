@@ -2,6 +2,7 @@
 /// \file  Responses per metre of wave: for `froude rao`, and for runs that need no stepping.
 #include <Eigen/Core>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -46,10 +47,17 @@ Responses respond(const scene::Scene& scene);
 /// Of what is prepared already, for the frequencies and signals of the scene.
 Responses respond(const scene::Scene& scene, const compile::Prepared& prepared, const HowToRespond& how = {});
 
-/// Displacements of all bodies about their centres of gravity in one wave, (6N), m/m and rad/m, as respond() has them:
-/// with the drag and about the rest of [ask.rao], where there is one. \throws hydro::InputError, hydro::NumericsError
-Eigen::VectorXcd motions_in_wave(const scene::Scene& scene, const compile::Prepared& prepared, double omega,
-                                 double heading, const scene::Place& place, std::vector<std::string>& notes);
+/// In one wave, per metre of its amplitude.
+struct MotionInWave {
+  Eigen::VectorXcd xi;  ///< displacements of all bodies about their centres of gravity, (6N), m/m and rad/m
+  /// W/m², what dampers, connectors, joints and moorings take of the motion: as much as the bodies take from the waves.
+  /// Empty where loads on members bring in or take power too, or radiation is left out.
+  std::optional<double> damped;
+};
+/// As respond() has them: with the drag and about the rest of [ask.rao], where there is one.
+/// \throws hydro::InputError, hydro::NumericsError
+MotionInWave motions_in_wave(const scene::Scene& scene, const compile::Prepared& prepared, double omega, double heading,
+                             const scene::Place& place, std::vector<std::string>& notes);
 
 /// Without dimension: rotations over the slope kζ of the wave, translations over its amplitude ζ, as they are; loads
 /// stay per metre of amplitude.

@@ -80,6 +80,7 @@ Report report_of(const scene::Scene& scene, const FreeSurface& surface, const Pa
       "and send out {:.4g}",
       fact("x_N_m2", surface.drift_x), fact("y_N_m2", surface.drift_y), fact("taken_W_m2", surface.power_taken),
       fact("sent_out_W_m2", surface.power_sent_out));
+  if (surface.body_drift.empty()) mean.keep("error", surface.body_drift_error);  // else with that of each body
   out.part("mean_drift", std::move(mean));
   if (!surface.body_drift.empty()) out.part("body_drift", body_drift(surface));
   if (surface.pressure) out.part("pressure", highest_pressure(*surface.pressure));

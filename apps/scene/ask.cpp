@@ -215,10 +215,9 @@ Binding<AskField> field() {
                        "its origin, to second order"),
                 [](const Value&, AskField& asked) { asked.body_drift = true; })
       .optional(number("accepted_drift_error",
-                       "of the mean drift of bodies over the largest, that is taken where the [ask] accuracy is "
-                       "missed; left out: none is")
-                    .within(Limit::open_fraction)
-                    .only_beside("body_drift"),
+                       "of the mean drift, of all bodies and of each, over the largest, that is taken where the [ask] "
+                       "accuracy is missed; left out: none is")
+                    .within(Limit::positive),
                 &AskField::accepted_drift_error)
       .place(&AskField::place)
       .then(check_grid);

@@ -1,5 +1,6 @@
 #include "hydro/hydrostatics/immersion.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -21,16 +22,17 @@ struct Integrals {
   Eigen::Matrix2d S_second = Eigen::Matrix2d::Zero();  // ∫ x xᵀ dS
 
   /// A triangle under water, (H4) and (H5): integrands are of second degree at most, so three mid-edge points are
-  /// exact.
-  void add(const Vector3d& a, const Vector3d& b, const Vector3d& c) {
+  /// exact. What lies in the surface leaves the waterplane whole (H6).
+  void add(const Vector3d& a, const Vector3d& b, const Vector3d& c, bool is_in_surface) {
     const Vector3d n = (b - a).cross(c - a) / 2;
-    area += n.norm();
+    if (!is_in_surface) area += n.norm();
     for (const Vector3d& m : {Vector3d((a + b) / 2), Vector3d((b + c) / 2), Vector3d((c + a) / 2)}) {
       const double w = n.z() / 3;
       const Vector2d xy = m.head<2>();
       volume += w * m.z();
       first.head<2>() += w * m.z() * xy;
       first.z() += w * m.z() * m.z() / 2;
+      if (is_in_surface) continue;
       S -= w;
       S_first -= w * xy;
       S_second -= w * xy * xy.transpose();
@@ -45,7 +47,10 @@ Vector3d crossing(const Vector3d& wet, const Vector3d& dry) {
 }
 
 /// The part of a triangle at z < 0, a polygon of at most four corners (H6).
-void add_wet_part(const std::array<Vector3d, 3>& corner, Integrals& sum) {
+void add_wet_part(const std::array<Vector3d, 3>& corner, double near, Integrals& sum) {
+  const bool is_in_surface =
+      std::all_of(corner.begin(), corner.end(), [&](const Vector3d& p) { return std::abs(p.z()) <= near; });
+  if (is_in_surface) sum.in_surface += (corner[1] - corner[0]).cross(corner[2] - corner[0]).norm() / 2;
   std::array<Vector3d, 4> wet;
   std::size_t n = 0;
   bool any = false;
@@ -56,11 +61,8 @@ void add_wet_part(const std::array<Vector3d, 3>& corner, Integrals& sum) {
     if (a.z() < 0 && b.z() > 0) wet[n++] = crossing(a, b);
     if (a.z() > 0 && b.z() < 0) wet[n++] = crossing(b, a);
   }
-  if (!any) {
-    if (n == 3) sum.in_surface += (corner[1] - corner[0]).cross(corner[2] - corner[0]).norm() / 2;
-    return;
-  }
-  for (std::size_t i = 2; i < n; ++i) sum.add(wet[0], wet[i - 1], wet[i]);
+  if (!any) return;
+  for (std::size_t i = 2; i < n; ++i) sum.add(wet[0], wet[i - 1], wet[i], is_in_surface);
 }
 
 void require_rigid(const Pose& pose) {
@@ -73,7 +75,7 @@ void require_rigid(const Pose& pose) {
 void require_dry_openings(const Hull& hull, const Pose& pose) {
   for (const int v : hull.rim()) {
     const Vector3d p = pose * hull.vertices()[at(v)];
-    if (p.z() < -1e-6 * hull.diagonal())
+    if (p.z() < -in_surface * hull.diagonal())
       throw InputError(fmt::format("{}: water comes in through the opening at ({:.6g}, {:.6g}, {:.6g}) m of the mesh, "
                                    "{:.4g} m under water",
                                    hull.source(), hull.vertices()[at(v)].x(), hull.vertices()[at(v)].y(),
@@ -83,7 +85,7 @@ void require_dry_openings(const Hull& hull, const Pose& pose) {
 }
 
 Integrals integrate(const Hull& hull, const Pose& pose, const Vector2d& middle) {
-  const double snap = 1e-12 * hull.diagonal();
+  const double snap = 1e-12 * hull.diagonal(), near = in_surface * hull.diagonal();
   thread_local std::vector<Vector3d> x;  // its room is kept, so that the steps of a run ask for none
   x.clear();
   for (const Vector3d& v : hull.vertices()) {
@@ -93,7 +95,7 @@ Integrals integrate(const Hull& hull, const Pose& pose, const Vector2d& middle) 
     x.push_back(p);
   }
   Integrals sum;
-  for (const auto& t : hull.triangles()) add_wet_part({x[at(t[0])], x[at(t[1])], x[at(t[2])]}, sum);
+  for (const auto& t : hull.triangles()) add_wet_part({x[at(t[0])], x[at(t[1])], x[at(t[2])]}, near, sum);
   return sum;
 }
 

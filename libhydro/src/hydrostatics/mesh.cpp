@@ -10,6 +10,8 @@
 #include <numeric>
 #include <unordered_map>
 
+#include "self_overlap.hpp"
+
 namespace hydro::hydrostatics {
 namespace {
 
@@ -78,6 +80,20 @@ double cone(const Vector3d& p, const Vector3d& a, const Vector3d& b, const Vecto
   return (a - p).dot((b - p).cross(c - p));
 }
 
+/// (H1): water that is enclosed twice would be displaced twice. What is shallower than ten times the usual distance of
+/// welding is a matter of rounding: shells may touch.
+void require_no_overlap(const TriangleMesh& mesh, const std::vector<std::array<int, 2>>& open_edges, double diagonal) {
+  constexpr double rounding = 1e-5;
+  const std::optional<SelfOverlap> found = self_overlap(mesh, open_edges, rounding * diagonal);
+  if (!found) return;
+  throw InputError(
+      found->other >= 0 ? fmt::format("{}: the mesh pierces itself at {}, where triangles {} and {} cross", mesh.source,
+                                      text(found->at), found->triangle + 1, found->other + 1)
+                        : fmt::format("{}: the mesh encloses the place {} twice: triangle {} lies inside the hull",
+                                      mesh.source, text(found->at), found->triangle + 1),
+      {}, "unite the overlapping shells (a union of solids) in the program that made the mesh; they may touch");
+}
+
 }  // namespace
 
 TriangleMesh welded(TriangleMesh mesh, double distance) {
@@ -118,6 +134,7 @@ Hull::Hull(TriangleMesh mesh) : mesh_(std::move(mesh)) {
   check_edges();
   check_doubled();
   check_parts();
+  require_no_overlap(mesh_, open_edges_, diagonal_);
 }
 
 void Hull::measure() {

@@ -125,6 +125,7 @@ class Ladder {
   }
   std::vector<OneFrequency> answers(const std::vector<Extrapolated>& of_each) const;
   std::optional<MatrixXd> limit(Limit which, double omega, const Sizes& size, double& doubtful) const;
+  Eigen::VectorXd own_errors(const Work& w) const;
   Estimate estimate(const Work& w, const std::vector<Extrapolated>& correction, const Sizes& size) const;
   double interpolation_error(const Work& w, const std::vector<Extrapolated>& correction, const Sizes& size) const;
   std::vector<double> roughness() const;
@@ -288,6 +289,7 @@ Work Ladder::work(Estimate& e) const {
   w.check = self_check(w.results, first().mesh->length());
   const Sizes size = sizes(w.results, w.check.length);
   e = estimate(w, correction, size);
+  w.own_error = own_errors(w);
   double doubtful = 0;
   w.A_inf = *limit(&Level::inf, infinite, size, doubtful);
   w.A_zero = limit(&Level::zero, 0, size, doubtful);
@@ -309,6 +311,13 @@ std::vector<std::vector<OneFrequency>> Ladder::doubted(const Work& w,
     divided.push_back(with_division_doubted(w.results[i], answer(i, *first().at[i])));
   return {results(corrections(1 - doubtful_share_of_parts(levels_.size()))),
           results(correction, samples_all() ? 0 : of_omitted), std::move(divided)};
+}
+
+Eigen::VectorXd Ladder::own_errors(const Work& w) const {
+  OwnErrors own(w.results, w.check.length);
+  for (const std::size_t i : samples_)
+    own.take(sum(w.results[i], -1, answer(i, *levels_.back().at[i])), doubtful_share(levels_.size()));
+  return own.of_mode;
 }
 
 Estimate Ladder::estimate(const Work& w, const std::vector<Extrapolated>& correction, const Sizes& size) const {

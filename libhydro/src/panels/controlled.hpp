@@ -23,6 +23,7 @@ struct Work {
   Eigen::MatrixXd A_inf;
   std::optional<Eigen::MatrixXd> A_zero;  ///< deep water only
   SelfCheck check;
+  Eigen::VectorXd own_error = {};  ///< of each mode, see OwnErrors; empty where no error is estimated
 };
 
 /// Values of panels of no size on the faces of `given`, to the tolerance of `options`.

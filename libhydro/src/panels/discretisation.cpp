@@ -112,9 +112,10 @@ Cost cost_as_asked(const Discretisation& given, const std::vector<double>& omega
 }
 
 PanelMesh first_mesh(const PanelMesh& given, const Water& water, double highest, int gradings) {
-  constexpr int most_halvings = 6;  // 4096 panels for one: what is longer still is refused
+  constexpr int most_panels = 5000;  // of the part that is kept: more than can be solved when they are cut again
   PanelMesh mesh = graded(given, gradings);
-  for (int i = 0; i < most_halvings && too_long(mesh, water, highest); ++i) mesh = refined(mesh);
+  while (static_cast<int>(mesh.hull.size()) < most_panels && too_long(mesh, water, highest)) mesh = refined(mesh);
+  require_short_panels(mesh, water, highest);
   return mesh;
 }
 

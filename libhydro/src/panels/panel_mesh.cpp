@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "hydro/base/error.hpp"
+#include "hydro/hydrostatics/immersion.hpp"
 
 namespace hydro::panels {
 namespace {
@@ -159,7 +160,7 @@ std::vector<Vector3d> vertices_of(const HullBody& body, double near, double dept
   return v;
 }
 
-double nearness(const HullBody& body) { return 1e-6 * body.hull.diagonal(); }
+double nearness(const HullBody& body) { return hydrostatics::in_surface * body.hull.diagonal(); }
 
 /// All of a hull's, with vertices_of().
 std::vector<Triangle> triangles_of(const HullBody& body, double depth) {

@@ -3,8 +3,10 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 
 #include "hydro/waves/dispersion.hpp"
 #include "potential/solver_request.hpp"
@@ -68,28 +70,71 @@ double top_of(const Panel& panel) {
   return top;
 }
 
-double longest_reached(const PanelMesh& mesh, double length) {
-  double across = 0;
-  for (const Panel& p : mesh.hull)
-    if (p.shape.centre.z() > -reached * length || top_of(p) > -reached_edge * length)
-      across = std::max(across, p.shape.size);
-  return across;
+/// What faces up more than sideways has water over it that may be shallow.
+constexpr double faces_up = 0.7;  // cosine
+
+/// Of water over a panel that makes waves as many panels long: √h, by which lengths of long waves go, changes evenly
+/// along a slope, from its top to its lowest corner.
+double depth_over(const Panel& panel) {
+  double low = 0;
+  for (const Vector3d& p : panel.shape.corners) low = std::min(low, p.z());
+  const double root = (std::sqrt(std::max(0.0, -top_of(panel))) + std::sqrt(-low)) / 2;
+  return root * root;
+}
+
+/// A panel and the waves at it.
+struct AtPanel {
+  double size = 0, wave = 1;            ///< m
+  std::optional<double> under_shallow;  ///< m, the depth of the water over it that the waves are short in
+  double share() const { return size / wave; }
+};
+
+AtPanel at_panel(const Panel& panel, const Water& water, double highest, double length) {
+  const double depth = depth_over(panel);
+  if (panel.shape.normal.z() < faces_up || depth >= water.depth.metres() || depth <= 0)
+    return {panel.shape.size, length, {}};
+  Water above = water;
+  above.depth = WaterDepth::from_metres(depth);
+  return {panel.shape.size, shortest_wave(above, highest), depth};
+}
+
+/// Where waves reach, the panel that is longest beside them (G34).
+AtPanel longest_reached(const PanelMesh& mesh, const Water& water, double highest) {
+  const double length = shortest_wave(water, highest);
+  AtPanel worst;
+  for (const Panel& p : mesh.hull) {
+    if (p.shape.centre.z() <= -reached * length && top_of(p) <= -reached_edge * length) continue;
+    const AtPanel here = at_panel(p, water, highest, length);
+    if (here.share() > worst.share()) worst = here;
+  }
+  return worst;
+}
+
+bool is_too_long(const AtPanel& worst) { return worst.share() * a_wave_length > 1; }
+
+std::string where_of(const AtPanel& worst) {
+  return worst.under_shallow ? fmt::format("panels that face up {:.3g} m below the surface", *worst.under_shallow)
+                             : "panels near the surface";
 }
 
 }  // namespace
 
 bool too_long(const PanelMesh& mesh, const Water& water, double highest) {
-  const double length = shortest_wave(water, highest);
-  return longest_reached(mesh, length) * a_wave_length > length;
+  return is_too_long(longest_reached(mesh, water, highest));
 }
 
 void require_short_panels(const PanelMesh& mesh, const Water& water, double highest) {
-  if (!too_long(mesh, water, highest)) return;
-  const double length = shortest_wave(water, highest);
-  throw InputError(fmt::format("panels near the surface are up to {:.3g} m across, and waves of {:.4g} rad/s {:.3g} m "
-                               "long: fewer than {:g} panels a wave length",
-                               longest_reached(mesh, length), highest, length, a_wave_length),
-                   {}, "make the mesh finer at the waterline, or leave out the shortest waves");
+  const AtPanel worst = longest_reached(mesh, water, highest);
+  if (!is_too_long(worst)) return;
+  throw InputError(
+      fmt::format("{} are up to {:.3g} m across, and waves of {:.4g} rad/s are {:.3g} m long there: fewer than {:g} "
+                  "panels a wave length",
+                  where_of(worst), worst.size, highest, worst.wave, a_wave_length),
+      {},
+      worst.under_shallow
+          ? "make the mesh finer where it faces up below shallow water, leave out the shortest waves, or "
+            "put a top that is meant to be at the surface there (z = 0)"
+          : "make the mesh finer at the waterline, or leave out the shortest waves");
 }
 
 void require_apart(const PanelMesh& mesh, const std::vector<HullBody>& bodies) {
@@ -100,7 +145,7 @@ void require_apart(const PanelMesh& mesh, const std::vector<HullBody>& bodies) {
       throw InputError(fmt::format("\"{}\" is inside \"{}\" at ({:.4g}, {:.4g}, {:.4g}) m",
                                    bodies[static_cast<std::size_t>(mesh.hull[i].body)].name,
                                    bodies[static_cast<std::size_t>(other)].name, P.x(), P.y(), P.z()),
-                       {}, "move the bodies apart, or make one mesh of them");
+                       {}, "move the bodies apart, or unite them (a union of solids) in one mesh");
     }
 }
 

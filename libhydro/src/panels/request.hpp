@@ -11,7 +11,8 @@ namespace hydro::panels {
 void check_request(const std::vector<double>& omega, const std::vector<double>& heading, const Options& options);
 /// \throws InputError if the centre of a panel is inside another body
 void require_apart(const PanelMesh& mesh, const std::vector<HullBody>& bodies);
-/// True if a panel that waves of rad/s `highest` reach is longer than a fifth of them.
+/// True if a panel that waves of rad/s `highest` reach is longer than a fifth of them; over a panel that faces up they
+/// are as short as the water there is shallow (G34).
 bool too_long(const PanelMesh& mesh, const Water& water, double highest);
 /// \throws InputError if too_long()
 void require_short_panels(const PanelMesh& mesh, const Water& water, double highest);

@@ -1,5 +1,7 @@
 #include "self_check.hpp"
 
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -38,9 +40,22 @@ double relative(const MatrixXcd& difference, const VectorXd& size) {
 /// Errors that fall at least as the size of panels: half of that of the coarse mesh is left on the fine one (G15).
 constexpr double coarse_over_change = 2;
 
-}  // namespace
+/// Of the largest of A and X at the arm, what symmetry alone leaves as rounding and as what is not quite symmetric in a
+/// mesh; damping goes with the square of X.
+constexpr double next_to_nothing = 1e-3;
 
-Sizes sizes(const std::vector<OneFrequency>& results, double arm) {
+void leave_out_nothing(VectorXd& size, double arm, double share) {
+  VectorXd raised = size;
+  raise_to_floor(raised, arm);
+  for (Index i = 0; i < size.size(); ++i) {
+    double largest = 0;
+    for (Index j = 0; j < size.size(); ++j)
+      if (j % 6 / 3 == i % 6 / 3) largest = std::max(largest, raised(j));
+    if (size(i) < share * largest) size(i) = 0;
+  }
+}
+
+Sizes own_sizes(const std::vector<OneFrequency>& results) {
   const Index modes = results.front().A.rows();
   Sizes s{VectorXd::Zero(modes), VectorXd::Zero(modes), VectorXd::Zero(modes)};
   for (const OneFrequency& r : results) {
@@ -48,6 +63,13 @@ Sizes sizes(const std::vector<OneFrequency>& results, double arm) {
     s.B = s.B.cwiseMax(r.B.diagonal().cwiseAbs());
     for (Index h = 0; h < r.X.cols(); ++h) s.X = s.X.cwiseMax(r.X.col(h).cwiseAbs());
   }
+  return s;
+}
+
+}  // namespace
+
+Sizes sizes(const std::vector<OneFrequency>& results, double arm) {
+  Sizes s = own_sizes(results);
   raise_to_floor(s.A, arm * arm);
   raise_to_floor(s.B, arm * arm);
   raise_to_floor(s.X, arm);
@@ -57,6 +79,41 @@ Sizes sizes(const std::vector<OneFrequency>& results, double arm) {
 double largest(const OneFrequency& difference, const Sizes& size) {
   return std::max({potential::relative_size(difference.A, size.A), potential::relative_size(difference.B, size.B),
                    relative(difference.X, size.X)});
+}
+
+OwnErrors::OwnErrors(const std::vector<OneFrequency>& results, double arm) : own_(own_sizes(results)) {
+  leave_out_nothing(own_.A, arm * arm, next_to_nothing);
+  leave_out_nothing(own_.B, arm * arm, next_to_nothing * next_to_nothing);
+  leave_out_nothing(own_.X, arm, next_to_nothing);
+  of_mode = VectorXd::Constant(own_.A.size(), std::numeric_limits<double>::quiet_NaN());
+}
+
+void OwnErrors::take(const OneFrequency& difference, double factor) {
+  for (Index m = 0; m < of_mode.size(); ++m) {
+    const auto count = [&](double changed, double size) {
+      if (size > 0) of_mode(m) = std::fmax(of_mode(m), factor * std::abs(changed) / size);
+    };
+    count(difference.A(m, m), own_.A(m));
+    count(difference.B(m, m), own_.B(m));
+    for (Index h = 0; h < difference.X.cols(); ++h) count(std::abs(difference.X(m, h)), own_.X(m));
+  }
+}
+
+std::string in_words(const VectorXd& own_errors, double told) {
+  constexpr double much = 1.5;
+  std::vector<std::string> all, worse;
+  for (Index mode = 0; mode < 6; ++mode) {
+    double error = std::numeric_limits<double>::quiet_NaN();
+    for (Index m = mode; m < own_errors.size(); m += 6) error = std::fmax(error, own_errors(m));
+    if (std::isnan(error)) continue;
+    const std::string name(mode_names[static_cast<std::size_t>(mode)]);
+    all.push_back(fmt::format("{} {:.1e}", name, error));
+    if (error > much * told) worse.push_back(name);
+  }
+  if (all.empty()) return {};
+  return fmt::format(
+      "error by panels of each mode over the largest value of its own: {}{}", fmt::join(all, ", "),
+      worse.empty() ? "" : fmt::format("; what depends on {} is known no better", fmt::join(worse, ", ")));
 }
 
 SelfCheck self_check(const std::vector<OneFrequency>& results, double arm) {
@@ -75,11 +132,16 @@ SelfCheck self_check(const std::vector<OneFrequency>& results, double arm) {
 }
 
 double estimate_of(const std::vector<OneFrequency>& results, const std::vector<OneFrequency>& finer,
-                   const std::vector<std::size_t>& refined, double arm) {
+                   const std::vector<std::size_t>& refined, double arm, Eigen::VectorXd& own) {
   const Sizes s = sizes(results, arm);
+  OwnErrors of_own(results, arm);
   double change = 0;
-  for (std::size_t i = 0; i < finer.size(); ++i)
-    change = std::max(change, largest(sum(finer[i], -1, results[refined[i]]), s));
+  for (std::size_t i = 0; i < finer.size(); ++i) {
+    const OneFrequency changed = sum(finer[i], -1, results[refined[i]]);
+    change = std::max(change, largest(changed, s));
+    of_own.take(changed, coarse_over_change);
+  }
+  own = of_own.of_mode;
   return coarse_over_change * change;
 }
 

@@ -143,7 +143,7 @@ Work plain_work(const Discretisation& given, const std::vector<double>& omega, c
   });
   w.check = self_check(w.results, given.length());
   given.describe(w.check);
-  if (fine) w.check.estimate = estimate_of(w.results, finer, again, given.length());
+  if (fine) w.check.estimate = estimate_of(w.results, finer, again, given.length(), w.own_error);
   const Sizes size = sizes(w.results, given.length());
   for (std::size_t i = 0; i < with_more.size(); ++i)
     w.check.truncation = std::max(w.check.truncation, truncation_of(w.results[again[i]], with_more[i], size));
@@ -275,6 +275,7 @@ Solution solve(const std::vector<HullBody>& bodies, const Water& water, const st
     s.doubted = doubted_values(mesh, bodies, w, c);
   }
   add_notes(s.check, c);
+  if (std::string own = in_words(w.own_error, s.check.estimate); !own.empty()) c.notes.push_back(std::move(own));
   if (!std::isnan(s.check.estimate)) note_flat_faces(bodies, c);
   if (options.frequency_tolerance) {
     s.check.solved_omega = chosen.omega;

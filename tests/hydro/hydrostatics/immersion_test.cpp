@@ -136,6 +136,20 @@ TEST(Immersion, IsContinuousThroughADeckThatGoesUnder) {
     EXPECT_NEAR(immersion(hull, sunk(1.8 - e)).volume, immersion(hull, sunk(1.8 + e)).volume, 81 * e + 1e-12) << e;
 }
 
+TEST(Immersion, KeepsTheWaterplaneOfADeckARoundingErrorUnderTheSurface) {
+  const Hull hull = box(10, 4, 3, 1.2);
+  const double near = in_surface * hull.diagonal();
+  for (const double depth : {-0.5 * near, 0.0, 1e-9, 0.5 * near}) {
+    const Immersion im = immersion(hull, sunk(1.8 + depth));
+    EXPECT_NEAR(im.waterplane.value().area, 40, 1e-12) << depth;
+    EXPECT_NEAR(im.area_in_surface, 40, 1e-12) << depth;
+    EXPECT_NEAR(im.volume, 120 - 40 * std::max(0.0, -depth), 1e-10) << depth;  // snapping at 1e-12 of the diagonal
+  }
+  const Immersion drowned = immersion(hull, sunk(1.8 + 2 * near));
+  EXPECT_FALSE(drowned.waterplane.has_value());
+  EXPECT_EQ(drowned.area_in_surface, 0);
+}
+
 TEST(Immersion, AgreesWithThePanelCodeBehindTheExampleData) {
   // hemisphere_r5.hst: Capytaine's matrix for a hemisphere of 5 m, G at z = -2 m, ρ 1000, g 9.81, by its own panels.
   const Hull hull(sphere_mesh({0, 0, 0}, 5, 5));

@@ -78,7 +78,7 @@ TEST(PanelInput, WhatItsOwnLawsRefuteIsRefused) {
 
 TEST(PanelInput, HullsInsideOneAnotherAreRefused) {
   EXPECT_THAT(refusal({named("outer", hemisphere(2, 4, 8)), named("inner", hemisphere(1, 4, 8))}, deep),
-              AllOf(HasSubstr("\"inner\" is inside \"outer\""), HasSubstr("move the bodies apart")));
+              AllOf(HasSubstr("\"inner\" is inside \"outer\""), HasSubstr("a union of solids")));
 }
 
 TEST(PanelInput, FrequenciesAndOptionsOutOfRangeAreRefused) {
@@ -103,6 +103,52 @@ TEST(PanelInput, PanelsThatAreLongBesideTheShortestWaveAreRefused) {
               AllOf(HasSubstr("6.5 rad/s"), HasSubstr("fewer than 5 panels a wave length"),
                     HasSubstr("finer at the waterline")));
   EXPECT_EQ(refusal({named("buoy", hemisphere(1, 6, 24))}, deep, {1.0, 5.0}), "accepted");
+}
+
+/// Wholly under water; its top has panels of 2.5 m.
+HullBody box_under(double depth) {
+  return named("box", hydrostatics::Hull(hydrostatics::box_mesh({-10, -5, -4.5}, {10, 5, -depth}, {8, 4, 2},
+                                                                hydrostatics::Spacing::equal)));
+}
+
+// Waves of 1.5 rad/s are 27 m long in deep water and 9.1 m over half a metre; of 0.6 rad/s they are 23 m there.
+TEST(PanelInput, PanelsThatAreLongBesideWavesOverAShallowTopAreRefused) {
+  EXPECT_THAT(refusal({box_under(0.5)}, deep, {0.6, 1.5}),
+              AllOf(HasSubstr("face up 0.5 m below the surface"), HasSubstr("9.1 m long there")));
+  EXPECT_EQ(refusal({box_under(0.5)}, deep, {0.6}), "accepted");
+  EXPECT_EQ(refusal({box_under(3)}, deep, {0.6, 1.5}), "accepted");
+}
+
+TEST(PanelInput, ATopAMillimetreUnderWaterIsRefusedWithAToleranceToo) {
+  for (const Options& options : {Options{}, Options{.tolerance = 0.2}})
+    EXPECT_THAT(refusal({box_under(1e-3)}, deep, {0.3, 1.2}, options),
+                AllOf(HasSubstr("face up 0.001 m below the surface"), HasSubstr("(z = 0)")));
+}
+
+// The slope of a cone that stands on its base, from the surface to 4 m: by the mean of the roots of both depths.
+TEST(PanelInput, ASlopeThatMeetsTheSurfaceIsHeldAgainstTheWavesAlongIt) {
+  const hydrostatics::TriangleMesh mesh{
+      .source = "pyramid",
+      .vertices = {{-8, -8, -4}, {8, -8, -4}, {8, 8, -4}, {-8, 8, -4}, {0, 0, 0.5}},
+      .triangles = {{0, 2, 1}, {0, 3, 2}, {0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}}};
+  EXPECT_THAT(refusal({named("pyramid", hydrostatics::Hull(mesh))}, deep, {0.3}),
+              HasSubstr("face up 1 m below the surface"));
+}
+
+// 20 m × 10 m × 4 m: 1e-6 of its diagonal is 23 µm.
+TEST(PanelInput, ADeckARoundingErrorUnderTheSurfaceIsInItForRestoringAsForWaves) {
+  const auto solved = [](double depth) {
+    HullBody body = box_under(depth);
+    body.centre_of_gravity = Eigen::Vector3d(0, 0, -2);
+    return solve({body}, deep, {0.6}, {0}).coefficients;
+  };
+  const auto at = solved(0);
+  for (const double depth : {1e-9, 1e-7, 1e-5}) {
+    const auto below = solved(depth);
+    EXPECT_NEAR((*below.C)(2, 2), 200 * at.water.density * at.water.gravity, 1e-6 * (*at.C)(2, 2)) << depth;
+    // 1e-5 m of 4 m of side; no more than rounding moves panels.
+    EXPECT_NEAR(below.A[0](2, 2), at.A[0](2, 2), 1e-4 * at.A[0](2, 2)) << depth;
+  }
 }
 
 TEST(PanelInput, TheCostIsToldBeforeAnythingIsSolved) {

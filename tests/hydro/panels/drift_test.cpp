@@ -60,6 +60,17 @@ TEST(PanelDrift, OfHullsThatStandApartIsTheSameByPartialWaves) {
   EXPECT_LT(difference(*apart.on_bodies, *together.on_bodies), 0.02);  // twice the surface's 1 %
 }
 
+TEST(PanelDrift, OfForcesHasAnErrorThatMomentsDoNotSetTheSizeOf) {
+  potential::BodyDrift coarse, fine;
+  coarse.load = Eigen::RowVector3d(4, 0, 101);  // over 2 m the moment is worth 50 times the force
+  fine.load = Eigen::RowVector3d(3, 0, 100);
+  fine.length = 2;
+  EXPECT_DOUBLE_EQ(potential::difference(coarse, fine), 1. / 3);
+  coarse.load = Eigen::RowVector3d(3, 0, 0.3);  // a moment that symmetry takes away: over what the force does at 2 m
+  fine.load = Eigen::RowVector3d(3, 0, 0);
+  EXPECT_DOUBLE_EQ(potential::difference(coarse, fine), 0.05);
+}
+
 TEST(PanelDrift, IsNotToldWhereNoSurfacePartsTwoHulls) {
   const std::vector<HullBody> both{body("over", box_mesh({-0.6, -0.4, -0.2}, {0.6, 0.4, 0}, {6, 4, 2}), {0, 0, 0}),
                                    body("under", box_mesh({-0.6, -0.4, -1.5}, {0.6, 0.4, -1}, {4, 3, 2}), {0, 0, 0})};

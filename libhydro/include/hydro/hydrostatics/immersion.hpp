@@ -16,6 +16,10 @@ namespace hydro::hydrostatics {
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
+/// Of a hull's diagonal: faces that are nearer to the still water lie in it, for waves as for hydrostatics (H6). The
+/// 32-bit numbers of STL put a deck that is drawn at the water less far from it.
+inline constexpr double in_surface = 1e-6;
+
 /// Where a hull is: the point x of the mesh is at attitude · x + position. The default is as drawn.
 struct Pose {
   Eigen::Matrix3d attitude = Eigen::Matrix3d::Identity();
@@ -39,13 +43,14 @@ struct Waterplane {
 struct Immersion {
   double volume = 0;                                  ///< V, m³
   std::optional<Eigen::Vector3d> centre_of_buoyancy;  ///< global, m; empty if V = 0
-  double wetted_area = 0;                             ///< m²; triangles that lie in z = 0 are dry
+  double wetted_area = 0;                             ///< m²; triangles that lie in the surface are dry
   std::optional<Waterplane> waterplane;  ///< empty if the surface is not pierced (S < 1e-12 of the hull's area)
-  double area_in_surface = 0;  ///< of triangles that lie in z = 0, m²; if positive, derivatives are those of rising
+  double area_in_surface = 0;  ///< of triangles within `in_surface`, m²; if positive, derivatives are those of rising
 };
 
-/// Cuts and integrates (H4)-(H6). Vertices within 1e-12 of the hull's diagonal from z = 0 lie in it. Cost:
-/// O(triangles). \throws InputError if the rim of an opening is under water by more than 1e-6 of the diagonal, saying
+/// Cuts and integrates (H4)-(H6). Vertices within 1e-12 of the hull's diagonal from z = 0 lie in it; triangles within
+/// `in_surface` displace their water, and are no hole in the waterplane. Cost: O(triangles). \throws InputError if the
+/// rim of an opening is under water by more than 1e-6 of the diagonal, saying
 /// where; if the pose is not finite or no rotation
 Immersion immersion(const Hull& hull, const Pose& pose);
 

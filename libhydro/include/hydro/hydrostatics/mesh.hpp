@@ -61,8 +61,8 @@ TriangleMesh with_freeboard(TriangleMesh mesh, double height);
 class Hull {
  public:
   /// \throws InputError saying where: fewer than four triangles; a vertex that is not finite; neighbours that disagree
-  /// on what is outside; a part that is inside out; a size that cannot be in metres (diagonal above 5 km or below
-  /// 1 mm). Self-intersections are not looked for: a volume covered twice counts twice.
+  /// on what is outside; a part that is inside out; faces that cross, or shells inside one another, by more than 1e-5
+  /// of the diagonal; a size that cannot be in metres (diagonal above 5 km or below 1 mm).
   explicit Hull(TriangleMesh mesh);
 
   const std::string& source() const { return mesh_.source; }

@@ -18,8 +18,8 @@ struct BodyDrift {
   double estimate = 0;
 };
 
-/// The largest difference of forces, and of moments over `length`, over the largest force or moment over `length` of
-/// `finer`. 0 where there is none.
+/// The larger of two: the largest difference of forces over the largest force of `finer`, and that of moments over the
+/// largest moment, or the largest force times `length` where that is more. 0 where there is none.
 double difference(const BodyDrift& coarser, const BodyDrift& finer);
 
 /// By how much the forces on all bodies miss the one that waves far away tell (P39), over the largest force on a body,
