@@ -153,7 +153,7 @@ TEST_F(LaboratoryRefuses, LinesThatGoNowhere) {
 TEST_F(TankDay, SaysWhereALineIsAnExtrapolation) {
   EXPECT_THAT(told({.scene = folder / "waves.toml"}), Not(HasSubstr("extrapolation")));
   refill("waves_1.csv", 1,
-         [](std::size_t, const std::string& cell) { return std::to_string(5 + 40 * (std::stod(cell) - 5)); });
+         [](std::size_t, const std::string& cell) { return std::to_string(5 + 9 * (std::stod(cell) - 5)); });
   EXPECT_THAT(told({.scene = folder / "waves.toml"}),
               AllOf(HasSubstr("the line was taken from 2.997 to"), HasSubstr("extrapolation")));
 }

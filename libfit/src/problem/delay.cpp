@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <optional>
 
 #include "telling.hpp"
@@ -11,6 +12,18 @@ namespace {
 
 constexpr double by_chance = 0.01;
 
+/// How far the lag of a half may be from that of the whole: clocks run apart by less than a hundredth, and beyond a
+/// quarter of a period another swing fits half a record as well.
+double reach_of_half(const FittedRun& whole) {
+  const double length = whole.time.back() - whole.time.front(),
+               mean = std::accumulate(whole.first.begin(), whole.first.end(), 0.0) /
+                      static_cast<double>(whole.first.size());
+  int crossings = 1;
+  for (std::size_t i = 1; i < whole.first.size(); ++i)
+    crossings += (whole.first[i] > mean) != (whole.first[i - 1] > mean) ? 1 : 0;
+  return std::max(std::min(0.01 * length, length / crossings / 2), 3 * whole.offset.half_width);
+}
+
 /// One half of the first channel against the whole of the second, about the lag that is known.
 std::optional<Offset> half_offset(const Run& run, const FittedRun& whole, const OffsetOptions& search, bool first) {
   const auto middle = static_cast<std::ptrdiff_t>(whole.time.size() / 2);
@@ -19,7 +32,7 @@ std::optional<Offset> half_offset(const Run& run, const FittedRun& whole, const 
   };
   OffsetOptions about = search;
   about.around = whole.offset.lag;
-  about.longest = std::min(search.longest, (whole.time.back() - whole.time.front()) / 8);
+  about.longest = std::min(search.longest, reach_of_half(whole));
   about.sign = whole.offset.scale < 0 ? OffsetOptions::Sign::opposite : OffsetOptions::Sign::same;
   try {
     return offset_between(half_of(whole.time), half_of(whole.first), run.second_time, run.second, about);
