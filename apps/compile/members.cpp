@@ -111,7 +111,7 @@ void check_ends_of(const Scene& scene, const scene::Member& m) {
                      m.place, "take pressure = true out of its ends, or excitation out of the body's hydrodynamics");
 }
 
-dynamics::MemberEnds ends_of(const Scene& scene, const scene::Member& m) {
+dynamics::MemberEnds loaded_ends(const Scene& scene, const scene::Member& m) {
   const Eigen::Vector3d centre = scene.bodies[static_cast<std::size_t>(m.body)].centre_of_gravity;
   const double plate = m.ends->diameter.value_or(m.diameter);
   dynamics::MemberEnds out{.name = m.name, .body = m.body, .ends = {}, .told = loads_told(scene, m)};
@@ -244,7 +244,7 @@ DragPiece piece_at(const dynamics::MemberEnds& member, const dynamics::MemberEnd
 
 std::vector<DragPiece> drag_of_ends(const Scene& scene, const scene::Member& m) {
   std::vector<DragPiece> out;
-  const dynamics::MemberEnds ends = ends_of(scene, m);
+  const dynamics::MemberEnds ends = loaded_ends(scene, m);
   for (const auto& end : ends.ends) out.push_back(piece_at(ends, end));
   return out;
 }
@@ -289,7 +289,7 @@ dynamics::frequency::MemberInertia inertia_of_responses(const Scene& scene,
   dynamics::frequency::MemberInertia out{.pieces = {}, .water = scene.water, .ends = {}};
   for (const scene::Member& m : scene.members) {
     if (m.ends) {
-      const dynamics::MemberEnds ends = ends_of(scene, m);
+      const dynamics::MemberEnds ends = loaded_ends(scene, m);
       for (const auto& end : ends.ends) out.ends.push_back({piece_at(ends, end), end.pressed, end.added});
     }
     if (!m.morison) continue;
@@ -322,7 +322,7 @@ void add_members(const Scene& scene, const std::vector<dynamics::RigidBody>& bod
   std::vector<dynamics::SlammingMember> struck;
   std::vector<dynamics::MemberEnds> ended;
   for (const auto& m : scene.members) {
-    if (m.ends) ended.push_back(ends_of(scene, m));
+    if (m.ends) ended.push_back(loaded_ends(scene, m));
     if (m.morison) moving.push_back(morison(scene, m));
     if (m.slamming) struck.push_back(slamming(scene, m));
   }
