@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "compile/fastened.hpp"
 #include "compile/hulls.hpp"
@@ -237,6 +238,15 @@ dynamics::Vector6 load_at_rest(const Scene& scene, const SectionalLoad& load, co
   return out;
 }
 
+/// Weight and water cancel: of what is left the digits that are rounding of them say nothing.
+dynamics::Vector6 without_rounding(dynamics::Vector6 load, const Section& section, double gravity) {
+  const double force = 1e-12 * section.mass * gravity;
+  const double moment = force * (section.centre_of_gravity - section.at).norm();
+  for (Eigen::Index i = 0; i < 6; ++i)
+    if (const double last = i < 3 ? force : moment; last > 0) load[i] = std::round(load[i] / last) * last + 0.0;
+  return load;
+}
+
 std::array<double, 3> three(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
 }  // namespace
@@ -248,7 +258,8 @@ std::vector<SectionAtRest> sections_at_rest(const Scene& scene, const Prepared& 
   for (const PreparedSection& at : prepared.sections) {
     const Section& section = body_of(scene, at.body).sections[at.section];
     const SectionalLoad load = sectional_load(scene, prepared, about.model, at);
-    const dynamics::Vector6 held = -load.shift * load_at_rest(scene, load, still);
+    const dynamics::Vector6 held =
+        without_rounding(-load.shift * load_at_rest(scene, load, still), section, scene.water.gravity);
     out.push_back({name_of(scene, at), three(section.at), three(section.normal), {}});
     std::copy(held.begin(), held.end(), out.back().load.begin());
   }

@@ -1,7 +1,7 @@
 """The index of examples is followed as it stands: each command runs. Usage: index_test.py FROUDE SOURCE
 
-Where froude-film is not built beside froude, examples of films are not followed. FROUDE_FOLLOWED=3 follows one example in
-three, by lot, others after each commit: all are two minutes of a core, and cli.examples answers the scenes too.
+Where froude-film is not built beside froude, examples of films are not followed. FROUDE_FOLLOWED=6 follows one example in
+six, by lot, others after each commit: all are two minutes of a core, and cli.examples answers the scenes too.
 """
 import hashlib
 import os

@@ -275,9 +275,10 @@ class Fagerbakke(Rows):
         self.assertEqual(len(lines), 39 * (1 + 4 * (2 + 3 + 5)))
         self.assertEqual(len({tuple(line.split(",")[:4]) for line in lines}), 507)
         script = self.folder / "examples/sweep/make_rows_responses.py"
-        done = subprocess.run([sys.executable, "-B", str(script), str(FROUDE), "5", "S4"], capture_output=True, text=True, timeout=300)
+        # Of the rows of five modules the same takes two minutes.
+        done = subprocess.run([sys.executable, "-B", str(script), str(FROUDE), "2", "S4"], capture_output=True, text=True, timeout=300)
         self.assertEqual(done.returncode, 0, done.stderr)
-        kept = [line for line in lines if line.startswith("5,S4,")]
+        kept = [line for line in lines if line.startswith("2,S4,")]
         for told, line in zip(done.stdout.splitlines(), kept, strict=True):
             self.assertEqual(told.split(",")[:5], line.split(",")[:5])
             for a, b in zip(told.split(",")[5:], line.split(",")[5:]):
