@@ -385,12 +385,14 @@ namespace {
 
 /// What the scene itself leaves out of a sea.
 void note_cut(const scene::RandomSea& sea, double accuracy, std::vector<std::string>& out) {
-  if (!sea.lowest && !sea.highest) return;
+  constexpr double none = std::numeric_limits<double>::infinity();
+  const double low = sea.lowest.value_or(0), high = sea.highest.value_or(none);
+  // No cut; or no sea, which is refused where it is made.
+  if ((low == 0 && high == none) || !(low < high)) return;
   double all = 0, inside = 0;  // m²
   for (const auto& system : sea.systems) {
     all += system.spectrum->moment(0);
-    inside +=
-        system.spectrum->energy(sea.lowest.value_or(0), sea.highest.value_or(std::numeric_limits<double>::infinity()));
+    inside += system.spectrum->energy(low, high);
   }
   if (const double outside = 1 - inside / all; outside > accuracy)
     out.push_back(

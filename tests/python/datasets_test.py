@@ -45,7 +45,7 @@ mesh = "barge.obj"
 frequencies = "0.6 rad/s .. 1.2 rad/s, 3 values"
 mesh_tolerance = 0.9
 excitation = true
-radiation = true
+radiation = {}
 hydrostatics = true
 [[body.section]]
 name = "mid"

@@ -203,7 +203,7 @@ TEST(LinearMembers, TellWhatIsNotLinearInThem) {
   };
   EXPECT_THAT(notes("cd = 1.0, ca = 1.0"), Contains(HasSubstr("the drag left out reaches a tenth")));
   EXPECT_THAT(notes("cd = 0, ca = 1.0, partial_immersion = true"), Contains(HasSubstr("what is wet at rest")));
-  EXPECT_THAT(notes("cd = 0, ca = 1.0, cd_tangential = 0.01"), Contains(HasSubstr("drag along members is left out")));
+  EXPECT_THAT(notes("cd = 0, ca = 1.0, cd_tangential = 0.01"), Contains(HasSubstr("drag on members is left out")));
 }
 
 // A mooring that is taut across the motion: k(√(ℓ² + x²) − ℓ) x/√(ℓ² + x²), all of which is left out, for its stiffness
